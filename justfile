@@ -38,7 +38,7 @@ nightly:
     just keep reports/night
     cargo run --release -- complete
 
-# A tier (nightly or long) of one case, likewise; stop it at any time and start it again.
+# A tier (nightly or long) of one case, kept as the nightly one; stop it at any time and start it again.
 night-of case tier="nightly":
     cargo run --release -- verify {{case}} --tier {{tier}} --resume --out reports/{{tier}}-{{case}} || test $? -ne 2
     just keep reports/{{tier}}-{{case}}

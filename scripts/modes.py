@@ -44,7 +44,7 @@ def slope(basis, n, x):
 
 
 def wave(basis, n, theta, shift):
-    """phi and psi of the particles of a cell that have moved by so many cells."""
+    """phi and psi of the particles of a cell shifted by `shift` cells."""
     x = (np.arange(n) + 0.5) / n + shift
     m = np.arange(np.floor(shift) - 3, np.floor(shift) + 6)
     # Quadratic splines have their nodes in the middle of cells.

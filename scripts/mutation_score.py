@@ -3,8 +3,8 @@
 
     scripts/mutation_score.py TABLE FOLDER...     the table's name there, and folders that hold mutants.out of cargo-mutants
 
-Of viable mutants, those that build, a share is caught: a unit test or, of the core, a test of behaviour fails, or runs
-without end. The interval is Wilson's of 95 %, for a sample of them all.
+The score is the caught share of viable mutants (those that build): a unit test or, for the core, a test of behaviour
+fails, or runs without end. The interval is Wilson's of 95 %, for a sample of them all.
 """
 
 import json

@@ -5,7 +5,7 @@
     mpm-verify run mms-vortex-box --scheme gimp-fbar-consistent-flip --level n64 --out run \
         && scripts/page_numbers.py mms-vortex-box run
 
-Of the column: how far the layers between a quarter and three quarters of the depth have crept (mm). Of the vortex: mean
+Column: how far the layers between a quarter and three quarters of the depth have crept (mm). Vortex: mean
 and rms about it of the mean stress less the exact one (Pa).
 """
 

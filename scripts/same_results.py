@@ -35,7 +35,7 @@ import tempfile
 import zlib
 
 TIERS = ("quick", "pr", "nightly", "long")
-# Of records and summaries: who made them, when, and how fast.
+# Keys of records and summaries: who made them, when, and how fast.
 IGNORED = {"time", "machine", "version", "cpu_s", "cpu_s (s)", "wall_s", "night"}
 TEXTS = {
     "caption", "description", "limits", "meaning", "message", "references", "remark", "source", "statement", "title",

@@ -3,7 +3,7 @@
 use crate::memory::MemoryError;
 use thiserror::Error;
 
-/// Failure in a step, with the offending value.
+/// Failure of a step, with the offending value.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// A quantity of a particle is NaN or infinite.
@@ -78,7 +78,7 @@ impl Fault {
     }
 }
 
-/// Errors of building a scene or running it.
+/// Errors in building or running a scene.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
     /// A value of the scene is outside its range.
@@ -103,8 +103,8 @@ pub enum Error {
         /// Failure.
         fault: Fault,
     },
-    /// Newton's method found no equilibrium, however short the step. The run stays where the last one was found, from
-    /// which another rule can go on by [`take_over`](crate::Simulation::take_over).
+    /// Newton's method found no equilibrium, however short the step. The run keeps the last equilibrium, from which
+    /// another rule can continue by [`take_over`](crate::Simulation::take_over).
     #[error(
         "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations"
     )]
@@ -131,7 +131,7 @@ pub enum Error {
         /// Iterations done.
         iteration: u32,
     },
-    /// The body bears only a part of what acts on it from outside, or lets water out by only a part of what drains.
+    /// Only a part of an external load acts on the body, or only a part of a drained area drains it.
     #[error("step {step} (t = {time} s): only {value} of the {what} ({whole}) acts on the body")]
     Lost {
         /// Time at the start of the failed part of the step (s).
@@ -145,7 +145,7 @@ pub enum Error {
         /// Prescribed value.
         whole: f64,
     },
-    /// A body that was handed over is not one of the scene.
+    /// A body handed over does not match the scene.
     #[error(transparent)]
     Memory(#[from] MemoryError),
 }

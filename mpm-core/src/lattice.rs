@@ -291,8 +291,8 @@ pub struct Row<const D: usize> {
 }
 
 impl<const D: usize, const S: usize> Stencil<D, S> {
-    /// Places of a row along the outer axes, which are at most two: how many along the slow one and along the
-    /// fast one. In two dimensions there is one outer axis, the fast one; in one there is none.
+    /// Positions of a row along the outer axes (at most two): their number along the slow axis and along the fast one.
+    /// Two dimensions have one outer axis, the fast one; one dimension has no outer axis.
     pub const OUTER: (usize, usize) = match D {
         1 => (1, 1),
         2 => (1, S),

@@ -1,7 +1,7 @@
-//! Memory of a run: all that the next step needs and the scene does not define.
+//! Memory of a run: the state that the next step needs and the scene does not define.
 //!
-//! A run that is saved, built anew from its scene and restored goes on as if it had never stopped, bit for bit. So
-//! every part of a run says what it carries from one step to the next: by [`Memory`], or, if that is nothing, by
+//! A run that is saved, rebuilt from its scene and restored continues bit for bit as an uninterrupted one. So every
+//! part of a run declares the state that it carries from one step to the next: by [`Memory`], or, without any, by
 //! [`Memoryless`]. Construction data (moduli, limits, walls) are not saved, nor are work arrays, which each step
 //! overwrites.
 
@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// The memory of a part, as bytes; what they mean only that part knows.
+/// The memory of a part, as bytes in a format private to that part.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Saved(#[serde(with = "serde_bytes")] Vec<u8>);
@@ -33,7 +33,7 @@ pub enum MemoryError {
     Surplus {
         /// The part.
         part: &'static str,
-        /// How many are left.
+        /// Number of unexpected bytes.
         surplus: usize,
     },
     /// The memory asks for a scene that cannot be built.
@@ -75,7 +75,7 @@ impl MemoryError {
 }
 
 impl Saved {
-    /// The bytes of `value`, often a tuple of references to what is remembered.
+    /// The bytes of `value`, often a tuple of references to the state.
     ///
     /// # Errors
     /// A value that has no bytes, such as a sequence of unknown length.
@@ -107,7 +107,7 @@ impl Saved {
     }
 }
 
-/// Something that remembers from one step to the next.
+/// A part with a state from one step to the next.
 pub trait Memory {
     /// Present memory.
     ///
@@ -115,14 +115,14 @@ pub trait Memory {
     /// A value that has no bytes.
     fn save(&self) -> Result<Saved, MemoryError>;
 
-    /// Remembers what was saved of its like, built in the same way.
+    /// Restores the state saved from a part built in the same way.
     ///
     /// # Errors
-    /// The memory of something else. Part of it may have been taken then: not to be used any more.
+    /// The memory of another part. This one may then be partly restored and must not be used any more.
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError>;
 }
 
-/// Something that remembers nothing: how it acts depends on how it was built and on what it is given.
+/// A part without a state: its actions depend on its construction and its arguments alone.
 pub trait Memoryless {}
 
 impl<T: Memoryless + ?Sized> Memory for T {
@@ -151,10 +151,10 @@ pub fn save_all<T: Memory + ?Sized>(parts: &[Box<T>]) -> Result<Vec<Saved>, Memo
     parts.iter().map(|part| part.save()).collect()
 }
 
-/// Gives each of a list its memory back; `what` names the list in errors.
+/// Restores the memory of each part of a list; `what` names the list in errors.
 ///
 /// # Errors
-/// A list of another length, or the memory of something else.
+/// A list of another length, or the memory of another part.
 pub fn restore_all<T: Memory + ?Sized>(
     what: &'static str,
     parts: &mut [Box<T>],
@@ -165,7 +165,7 @@ pub fn restore_all<T: Memory + ?Sized>(
     pairs.try_for_each(|(part, saved)| part.restore(saved))
 }
 
-/// Columns of vectors, which serde knows for no general `D`: as one run of numbers.
+/// Columns of vectors as one run of numbers: serde has no arrays of a general length `D`.
 pub(crate) mod rows {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
@@ -187,7 +187,7 @@ pub(crate) mod rows {
     }
 }
 
-/// One vector, which serde knows for no general `D` either.
+/// One vector, for the same reason.
 pub(crate) mod row {
     use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 

@@ -21,7 +21,7 @@ pub struct Candidates<'a> {
 }
 
 impl<'a> Candidates<'a> {
-    /// Of a study that is judged, made by this very program.
+    /// Blessing of a judged study whose records were made by this very program.
     ///
     /// # Errors
     /// The records were made by another program.
@@ -40,7 +40,7 @@ impl<'a> Candidates<'a> {
         Ok(Self { study, drifted: study.records.iter().filter(drifts).collect() })
     }
 
-    /// What has drifted: one line per run and column; how many runs, and how many of them no truth judges.
+    /// Table of drift: one line per run and column, the number of drifted runs, and how many of them no truth judges.
     #[must_use]
     pub fn table(&self) -> String {
         let mut t = String::new();
@@ -134,9 +134,9 @@ impl<'a> Candidates<'a> {
     }
 }
 
-/// What came of blessing.
+/// Result of blessing.
 pub enum Blessing {
-    /// So many runs are blessed.
+    /// Number of blessed runs.
     Done(usize),
     /// A twin broke down, which the text says.
     Broken(String),
@@ -150,8 +150,8 @@ type Doubt = (String, String, String);
 /// Factor by which the response of a quantity may have grown since its last blessing.
 const JUMP: f64 = 100.0;
 
-/// What is doubtful of a run: counts that contradict each other, a value that no metric of its name can have, a quantity
-/// that was kept and has no number now or answers rounding too strongly, a response that has jumped.
+/// Reasons to doubt a run: counts that contradict each other, an impossible value of a metric, a kept quantity that is
+/// now not a number or answers rounding too strongly, a response that has jumped.
 fn doubts_of(record: &Record, kept: Option<&Run>, now: &Run) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let mut doubt = |name: &str, why: String| {
@@ -187,7 +187,7 @@ fn doubts_of(record: &Record, kept: Option<&Run>, now: &Run) -> Vec<Doubt> {
     doubts
 }
 
-/// What is doubtful and not allowed, and what is allowed and not doubtful; empty if nothing.
+/// Doubts that are not allowed, and allowances without a doubt; empty without either.
 fn refusal_of(doubts: &[Doubt], allowed: &[String]) -> String {
     let mut t = String::new();
     for (name, run, why) in doubts.iter().filter(|(name, ..)| !allowed.contains(name)) {

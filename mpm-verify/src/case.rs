@@ -1,4 +1,4 @@
-//! What a problem must say of itself.
+//! Definition of a verification case.
 
 use crate::check::Check;
 use crate::error::Error;
@@ -39,7 +39,7 @@ impl Tier {
     /// By its name.
     ///
     /// # Errors
-    /// There is none of that name.
+    /// No tier has that name.
     pub fn parse(name: &str) -> Result<Self, Error> {
         let found = Self::ALL.into_iter().find(|t| t.to_string() == name);
         found.ok_or_else(|| Error::unknown("tier", name, Self::NAMES))
@@ -59,7 +59,7 @@ pub struct FieldView {
     pub time: Option<f64>,
     /// Column of the values, without its unit.
     pub value: &'static str,
-    /// What it is, as the colour scale is labelled.
+    /// Label of the colour scale.
     pub label: &'static str,
     /// Values at the ends of the colour scale.
     pub range: (f64, f64),
@@ -76,11 +76,11 @@ pub struct Case {
     pub name: &'static str,
     /// Title.
     pub title: &'static str,
-    /// What it is, in a few lines.
+    /// Description in a few lines.
     pub description: &'static str,
     /// References with their uncertainty.
     pub references: Vec<String>,
-    /// What it does not show.
+    /// Limits: claims that the case does not support.
     pub limits: &'static [&'static str],
     /// Parameters.
     pub parameters: Vec<Parameter>,
@@ -92,9 +92,9 @@ pub struct Case {
     pub metrics: Vec<Metric>,
     /// Checks.
     pub checks: Vec<Check>,
-    /// Quantities for which it is run: all that have to be right for a run to be right.
+    /// Quantities for which it is run: all have to be right for a run to be right.
     pub wanted: Vec<Wanted>,
-    /// What the table of results shows.
+    /// Columns of the table of results.
     pub headlines: Vec<Column>,
     /// Quantities whose convergence is studied.
     pub quantities: Vec<Quantity>,

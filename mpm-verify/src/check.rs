@@ -1,4 +1,4 @@
-//! What a case checks: each check is named once, and carries what it is decided by.
+//! Checks of a case: each has a name of its own, and the data by which it is decided.
 
 use crate::metric::Metric;
 use crate::record::Record;
@@ -10,16 +10,16 @@ pub struct Check {
     pub name: &'static str,
     /// Kind.
     pub kind: Kind,
-    /// What it demands, of which schemes, and where the tolerance comes from.
+    /// Its demand, the schemes it applies to, and the origin of the tolerance.
     pub statement: &'static str,
-    /// What it is decided on, and how.
+    /// Data by which it is decided, and the rule.
     pub on: On,
 }
 
 type OfRun = Box<dyn Fn(&Record) -> Vec<Finding> + Send + Sync>;
 type OfStudy = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
 
-/// What a check is decided on, and how; nothing is found where it says nothing.
+/// Data by which a check is decided, and the rule; without a statement of the rule nothing is found.
 pub enum On {
     /// One run that has come to its end.
     Run(OfRun),
@@ -45,12 +45,12 @@ impl Check {
         Self::new(Kind::Truth, name, statement, on)
     }
 
-    /// Of a limit that is known: it fails if the limit vanishes.
+    /// Check of a known limit: it fails if the limit vanishes.
     pub(crate) fn known_limit(name: &'static str, statement: &'static str, on: On) -> Self {
         Self::new(Kind::KnownLimit, name, statement, on)
     }
 
-    /// Of what a wrong solution fulfils as well, such as its mass: it makes no run judged.
+    /// Check that a wrong solution passes as well, such as of its mass: it makes no run judged.
     pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
         Self::new(Kind::Bookkeeping, name, statement, on)
     }
@@ -116,7 +116,7 @@ impl Judged {
     }
 }
 
-/// What a check has found; the judge adds whose finding it is.
+/// Finding of a check; the judge adds whose finding it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     metric: String,
@@ -124,7 +124,7 @@ pub struct Finding {
     reference: Option<f64>,
     tolerance: Option<f64>,
     holds: Option<bool>,
-    /// What the value is of the order of, if that isn't the reference.
+    /// Magnitude of the value, if it isn't that of the reference.
     scale: Option<f64>,
     source: String,
 }

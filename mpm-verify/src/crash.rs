@@ -25,7 +25,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The page says that at least so many steps of a run are failed at.
+/// Least number of steps of a run with an injected failure, as stated by the page.
 const LEAST: usize = 40;
 
 /// A run of a few rows.
@@ -111,8 +111,8 @@ fn a_run_survives_a_failure_at_every_step() {
     }
 }
 
-/// What has its name is on the disk before: written, made safe, renamed, and then the folder made safe. Returns how many
-/// files got their names.
+/// Checks that every file is on the disk before it gets its name: written, synced, renamed, and then the folder synced.
+/// Returns the number of files that got their names.
 fn require_safe_names(log: &[(Step, PathBuf)]) -> usize {
     let mut renamed = 0;
     for (k, (step, path)) in log.iter().enumerate() {
@@ -224,9 +224,10 @@ struct Deed {
     name: &'static str,
     /// Its steps, at least: the page says so.
     least: usize,
-    /// Of how many steps one is failed at. No multiple of those of a file, so that steps of all kinds are.
+    /// Stride between the steps with an injected failure: no divisor of those of a file, so that steps of all kinds
+    /// fail.
     of: usize,
-    /// What is there before it.
+    /// Prepares the folder before it.
     prepare: fn(&Path) -> Result<(), Error>,
     work: fn(&Path) -> Result<(), Error>,
 }

@@ -64,7 +64,7 @@ enum Gate<P> {
     Unless(Of<P, Option<String>>),
 }
 
-/// What becomes of a run at the gates.
+/// Decision of the gates on a run.
 enum Passage {
     Judged,
     Unmentioned,
@@ -168,7 +168,7 @@ impl<P: ParameterSet> Demand<P> {
     }
 }
 
-/// What a set of runs depends on in a study of orders.
+/// Variable of a set of runs in a study of orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Over {
     /// The cell size h.

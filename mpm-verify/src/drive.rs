@@ -9,10 +9,10 @@ use serde::{Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// What a case does with its simulation: which scene it is in, what a row is, what is measured. All that changes from
-/// row to row is in [`Watch::Seen`].
+/// Observer of a case's simulation: the scene it is in, the rows, the metrics. All that changes from row to row is in
+/// [`Watch::Seen`].
 pub trait Watch<const D: usize>: Send {
-    /// What is remembered of the rows so far. It goes into checkpoints.
+    /// Observed state of the rows so far. It goes into checkpoints.
     type Seen: Serialize + DeserializeOwned + Send;
 
     /// The discretisation.
@@ -31,7 +31,7 @@ pub trait Watch<const D: usize>: Send {
     fn row(&self, seen: &mut Self::Seen, stage: &mut Stage<D>) -> Result<Vec<f64>, Error>;
     /// Share of the longest possible run that is done; at 1 the run is complete.
     fn progress(&self, seen: &Self::Seen, stage: &Stage<D>) -> f64;
-    /// What is kept of the state after the last row, if it is time to keep something.
+    /// Snapshot to write after the last row, if one is due.
     fn snapshot(&self, _seen: &Self::Seen, _stage: &mut Stage<D>) -> Option<Snapshot> {
         None
     }

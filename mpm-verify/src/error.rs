@@ -63,7 +63,7 @@ pub enum ExitCode {
 /// An error that ends the program.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// What the user asked for is not allowed; the text names what is.
+    /// Invalid request; the text names the valid values.
     #[error("{0}")]
     Input(String),
     /// The scene could not be built from the parameters.

@@ -314,7 +314,7 @@ impl<'a> Figure<'a> {
         Self { columns, ..self }
     }
 
-    /// Gives all panels the same axes, but for ranges of their own.
+    /// Gives all panels the same axes, except for ranges of their own.
     pub(crate) fn share_axes(self) -> Self {
         Self { shared: Shared::All, ..self }
     }

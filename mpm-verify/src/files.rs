@@ -22,7 +22,7 @@ pub(crate) const DOCUMENT: u64 = 1 << 27;
 /// Most bytes of a table that is read.
 pub(crate) const TABLE: u64 = 1 << 30;
 
-/// What is said of a file that says the same as one of this program in other bytes.
+/// Message for a file of this program's content in other bytes.
 pub(crate) const OTHER_LAYOUT: &str = "not laid out as this program writes it";
 
 /// Size of a file and checksum of its bytes, by which one that was changed is known.
@@ -35,7 +35,7 @@ pub struct Mark {
 }
 
 impl Mark {
-    /// Of these bytes.
+    /// Mark of these bytes.
     #[must_use]
     pub fn of(content: &[u8]) -> Self {
         Self { bytes: content.len() as u64, checksum: crc32fast::hash(content) }
@@ -48,7 +48,7 @@ pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
     folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
 }
 
-/// Reads a file of at most so many bytes.
+/// Reads a file of at most `most` bytes.
 ///
 /// # Errors
 /// It is missing, a link, no plain file (a pipe would be waited for), or larger.

@@ -1,4 +1,4 @@
-//! What another code gives of a case, and what is measured of it: the same as of a run, by the same functions.
+//! Results of other codes: the columns they supply, and the metrics computed from them with our own functions.
 
 use crate::error::Error;
 use crate::job::Column;
@@ -42,7 +42,7 @@ pub struct Asked {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// What it is.
+    /// Meaning, for the form to fill in.
     pub meaning: &'static str,
 }
 
@@ -64,7 +64,7 @@ impl Asked {
     }
 }
 
-/// What is measured of a result.
+/// Metrics of a result.
 pub type Measured = Result<Vec<(Metric, f64)>, Error>;
 
 /// Metrics, and the columns that all of them are measured from.
@@ -84,9 +84,9 @@ pub type Curve = (&'static str, Vec<(String, Vec<f64>)>);
 pub struct Foreign {
     /// The scheme that a code with these functions is judged as: one whose results are to be right.
     pub judged_as: fn(BasisName) -> Scheme,
-    /// What is known of the discretisation when the time step (s) is that.
+    /// Discretisation as far as it is known, given the time step (s).
     pub discretisation: fn(&RunSpec, &Parameters, f64) -> Discretisation,
-    /// What is measured from which columns.
+    /// Groups of metrics, each with the columns it needs.
     pub groups: Vec<Group>,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
@@ -110,7 +110,7 @@ impl Foreign {
     }
 }
 
-/// What a code gives of one run.
+/// Columns that a code supplies of one run.
 pub struct Given {
     /// The run that it is compared with: scheme, level, parameters that are changed.
     pub spec: RunSpec,
@@ -300,7 +300,7 @@ mod tests {
         let heads = |heads| given(heads).require_heads(&asked);
         assert!(heads(["time (s)", "force (N)"]).unwrap().is_empty());
         assert_eq!(heads(["time (s)", "work (J)"]).unwrap(), ["work (J)"]);
-        // A column of the other table is none of this one's.
+        // Columns of the other table don't count here.
         assert_eq!(heads(["time (s)", "x0 (m)"]).unwrap(), ["x0 (m)"]);
         let told = heads(["time (s)", "force (kN)"]).unwrap_err().to_string();
         let said = "column \"force (kN)\"; allowed: \"force (N)\"";

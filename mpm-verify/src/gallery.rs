@@ -1,4 +1,4 @@
-//! What a case draws its pictures from: the records of a report, and what the runs have written.
+//! Sources of a case's pictures: the records of a report, and the output files of the runs.
 
 use crate::draw::Chart;
 use crate::error::Error;
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub struct Picture {
     /// File below the report's folder.
     pub file: String,
-    /// What it shows.
+    /// Caption.
     pub caption: String,
 }
 
@@ -46,7 +46,7 @@ pub struct Gallery<'a> {
 }
 
 impl<'a> Gallery<'a> {
-    /// Of runs whose outputs lie in `folder`, for a report in `out`.
+    /// Gallery of runs whose outputs lie in `folder`, for a report in `out`.
     #[must_use]
     pub fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
         Self { case, records, folder, out, pictures: Vec::new() }

@@ -32,7 +32,7 @@ pub(crate) use row;
 pub struct Snapshot {
     /// Time (s).
     pub time: f64,
-    /// What is kept of them.
+    /// Columns that are kept.
     pub columns: Vec<Column>,
 }
 
@@ -77,7 +77,7 @@ pub trait Job: Memory + Send {
     fn finished(&self) -> bool;
     /// Share of the longest possible run that is done, 0 to 1.
     fn progress(&self) -> f64;
-    /// What is kept of the state after the last row, if it is time to keep something.
+    /// Snapshot to write after the last row, if one is due.
     fn snapshot(&mut self) -> Option<Snapshot> {
         None
     }

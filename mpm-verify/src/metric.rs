@@ -10,7 +10,7 @@ pub struct Metric {
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// What it measures.
+    /// Meaning.
     pub meaning: &'static str,
 }
 
@@ -73,19 +73,19 @@ impl From<Metric> for String {
 pub struct Quantity {
     /// The metric.
     pub metric: Metric,
-    /// What it is, as an axis is labelled.
+    /// Label of the axis.
     pub label: &'static str,
     /// Whether the metric is an error, whose exact value is zero; if not, Richardson's extrapolation
     /// stands in for the exact value.
     pub is_error: bool,
     /// The order of an error, where theory gives it.
     pub order: Option<f64>,
-    /// The uncertainty of the reference of an error: below it, nothing is told.
+    /// The uncertainty of the reference of an error: smaller errors decide nothing.
     pub uncertainty: Option<f64>,
 }
 
 impl Quantity {
-    /// Of this order by theory.
+    /// Sets the theoretical order.
     pub(crate) const fn of_order(self, order: f64) -> Self {
         Self { order: Some(order), ..self }
     }
@@ -101,9 +101,9 @@ impl Quantity {
 pub struct Sweep {
     /// The parameter, a number.
     pub parameter: Parameter,
-    /// What is drawn of it, as an axis is labelled.
+    /// Label of the axis.
     pub label: &'static str,
-    /// What is drawn of a value, such as its distance from a limit; positive if drawn by its logarithm.
+    /// Abscissa of a value, such as its distance from a limit; positive if drawn by its logarithm.
     pub abscissa: fn(f64) -> f64,
     /// Whether it is drawn by its logarithm.
     pub logarithmic: bool,
@@ -114,7 +114,7 @@ pub(crate) const fn error(metric: Metric, label: &'static str) -> Quantity {
     Quantity { metric, label, is_error: true, order: None, uncertainty: None }
 }
 
-/// What is no error, by metric and label.
+/// A quantity that is not an error, by metric and label.
 pub(crate) const fn value(metric: Metric, label: &'static str) -> Quantity {
     Quantity { is_error: false, ..error(metric, label) }
 }

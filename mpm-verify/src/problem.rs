@@ -76,7 +76,7 @@ impl<const D: usize> Phase<D> {
     }
 }
 
-/// What a case simulates, observes and measures. All that changes from row to row is in [`Problem::Seen`].
+/// Problem of a case: simulation, observation, metrics. All that changes from row to row is in [`Problem::Seen`].
 pub trait Problem<const D: usize>: Sized + Send {
     /// Its parameters.
     type Parameters;
@@ -259,7 +259,7 @@ impl Rows {
         Ok(row)
     }
 
-    /// Values of the column whose name, before its unit, is `name`, that of the start first; NaN if there is none.
+    /// Values of the column whose name, before its unit, is `name`, that of the start first; NaN without such a column.
     pub(crate) fn column(&self, name: &str) -> Vec<f64> {
         let own = |full: &String| full.split(" (").next() == Some(name);
         let place = self.names.iter().position(own).unwrap_or(usize::MAX);

@@ -31,8 +31,8 @@ pub(crate) fn single(message: &str, shown: bool) -> ProgressBar {
     bar
 }
 
-/// Seconds after which a run that no terminal shows first says how far it has come; then each time after twice as long,
-/// but at least so often.
+/// Seconds until the first progress line of a run without a terminal, and the longest interval between lines; each
+/// interval is twice the one before.
 const FIRST_S: u64 = 10;
 const LEAST_OFTEN_S: u64 = 600;
 
@@ -79,7 +79,7 @@ impl Teller {
     }
 }
 
-/// How far a run has come in so many seconds, and what is left of it at the rate at which this machine went.
+/// Progress of a run after `seconds`, and the time left at the rate of this machine.
 pub(crate) fn so_far(now: Progress, seconds: f64) -> String {
     let rate = now.steps as f64 / seconds;
     let mut text = format!("step {}, t = {:.4e} s, {rate:.0} steps/s", now.steps, now.time);

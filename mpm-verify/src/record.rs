@@ -182,7 +182,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This one, with so many threads.
+    /// This machine, with `threads` threads.
     #[must_use]
     pub fn here(threads: usize) -> Self {
         Self {
@@ -194,7 +194,7 @@ impl Machine {
     }
 }
 
-/// What ran.
+/// Version of the program that made a run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Version {
     /// Version of this program.
@@ -204,7 +204,7 @@ pub struct Version {
 }
 
 impl Version {
-    /// Of this program.
+    /// Version of this program.
     #[must_use]
     pub fn current() -> Self {
         Self { mpm_verify: env!("CARGO_PKG_VERSION").to_owned(), source: env!("MPM_SOURCE_FINGERPRINT").to_owned() }
@@ -322,13 +322,13 @@ impl Record {
         self.status == Status::Failed && !self.verdicts.iter().any(known)
     }
 
-    /// A metric's value; NaN where there is none.
+    /// A metric's value; NaN if it is missing.
     #[must_use]
     pub fn metric(&self, of: Metric) -> f64 {
         self.value(of.name)
     }
 
-    /// The value of the metric that data name; NaN where there is none.
+    /// The value of a metric named in data; NaN if it is missing.
     #[must_use]
     pub fn value(&self, name: &str) -> f64 {
         let measured = self.metrics.get(name).and_then(|m| m.value);

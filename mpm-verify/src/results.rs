@@ -24,7 +24,7 @@ pub struct Format {
     unit: &'static str,
 }
 
-/// With so many decimals.
+/// Format with this number of decimals.
 pub(crate) const fn fixed(decimals: usize) -> Format {
     Format { factor: 1.0, decimals, signed: false, notation: Notation::Fixed, unit: "" }
 }
@@ -39,7 +39,7 @@ pub(crate) const fn share(decimals: usize) -> Format {
     Format { factor: 100.0, unit: " %", ..fixed(decimals) }
 }
 
-/// As a power of ten, with so many decimals before it.
+/// Power of ten, with this number of decimals in the factor.
 pub(crate) const fn scientific(decimals: usize) -> Format {
     Format { notation: Notation::Scientific, ..fixed(decimals) }
 }
@@ -63,7 +63,7 @@ impl Format {
         Self { unit, ..self }
     }
 
-    /// The number as shown; a dash where there is none.
+    /// The number as shown; a dash for NaN.
     #[must_use]
     pub fn text(self, value: f64) -> String {
         let value = self.factor * value;
@@ -86,9 +86,9 @@ type Of<T> = Box<dyn Fn(&Record) -> T + Send + Sync>;
 type OfRow = Box<dyn Fn(&[&Record], &[&Record]) -> String + Send + Sync>;
 
 enum Cell {
-    /// What it says of the first run of the row that it is of.
+    /// Text of the first run in the row that the column applies to.
     Run(Of<bool>, Of<String>),
-    /// What it says of the runs of the row, given those of the table; empty if nothing.
+    /// Text of all runs of the row, given those of the table; may be empty.
     Row(OfRow),
 }
 
@@ -112,7 +112,7 @@ pub(crate) fn headline(metric: Metric, title: &str, factor: f64, decimals: usize
 }
 
 impl Column {
-    /// What is said of a run, in words.
+    /// Column of a text per run.
     pub(crate) fn text(title: impl Into<String>, text: impl Fn(&Record) -> String + Send + Sync + 'static) -> Self {
         Self { title: title.into(), metric: None, cell: Cell::Run(Box::new(|_| true), Box::new(text)) }
     }
@@ -131,7 +131,7 @@ impl Column {
         Self::value(title, move |r| r.metric(metric), format)
     }
 
-    /// What is said of the runs of a row, given those of the table; empty if nothing.
+    /// Column of a text per row, given the runs of the row and of the table; the text may be empty.
     pub(crate) fn row(
         title: impl Into<String>,
         text: impl Fn(&[&Record], &[&Record]) -> String + Send + Sync + 'static,
@@ -148,7 +148,7 @@ impl Column {
         Self { cell, ..self }
     }
 
-    /// What it says of a run by itself; nothing if it speaks of several.
+    /// Text of a run by itself; empty if the column needs several runs.
     #[must_use]
     pub fn of_run(&self, run: &Record) -> String {
         match &self.cell {
@@ -200,12 +200,12 @@ impl Column {
     }
 }
 
-/// What the runs of a row have in common: its title, and that of a run.
+/// Common property of the runs of a row: its title, and its value for a run.
 pub type Label = (&'static str, fn(&Record) -> String);
 
 /// The scheme of a row.
 pub(crate) const SCHEME: Label = ("scheme", |r| r.scheme().title());
-/// The scheme of a row but for its transfer.
+/// The scheme of a row without its transfer.
 pub(crate) const PAIR: Label = ("scheme", |r| Scheme::flip(r.basis(), r.remedy()).title());
 /// The cell size of a row.
 pub(crate) const CELLS: Label = ("h", |r| format!("{} m", r.level.trim_start_matches('h')));
@@ -229,7 +229,7 @@ pub struct ResultTable {
 }
 
 impl ResultTable {
-    /// Of the runs that it shows, what those of a row have in common, and what it says of them.
+    /// Table of the runs that it `shows`, with the labels that the runs of a row share, and the columns.
     pub(crate) fn new(
         name: impl Into<String>,
         shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
@@ -257,7 +257,7 @@ impl ResultTable {
         Self::new(name, shows, &[BASIS], remedies.iter().map(column))
     }
 
-    /// Shows only rows in which so many cells say something.
+    /// Shows only rows with at least this number of filled cells.
     pub(crate) fn least(self, least: usize) -> Self {
         Self { least, ..self }
     }
@@ -267,8 +267,8 @@ impl ResultTable {
         Self { across: true, ..self }
     }
 
-    /// The table of some runs, by case, scheme, level and what they change, and those that it tells of. A cell that has no
-    /// run is empty; a run that has broken down is told once.
+    /// The table of some runs, by case, scheme, level and changed parameters, and the runs it contains. A cell without
+    /// a run is empty; a breakdown is shown once per row.
     pub(crate) fn fill<'a>(&self, records: impl IntoIterator<Item = &'a Record>) -> (Sheet, Vec<&'a Record>) {
         let shown = records.into_iter().filter(|r| (self.shows)(r));
         let mut shown: Vec<&Record> = shown.collect();
@@ -300,7 +300,7 @@ impl ResultTable {
         (sheet, told)
     }
 
-    /// What is said of the runs of a row, and of which.
+    /// Cells of the runs of a row, and the runs used.
     fn cells<'a>(&self, runs: &[&'a Record], all: &[&'a Record]) -> (Vec<String>, Vec<&'a Record>) {
         let mut told: Vec<&Record> = Vec::new();
         let mut broken = None;

@@ -176,7 +176,7 @@ impl<'a, P: ParameterSet> Run<'a, P> {
 }
 
 impl<P> Run<'_, P> {
-    /// The value of a metric; NaN where there is none.
+    /// The value of a metric; NaN if it is missing.
     pub(crate) fn metric(&self, of: Metric) -> f64 {
         self.record.metric(of)
     }

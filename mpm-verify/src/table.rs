@@ -143,7 +143,7 @@ impl Table {
         self.iter().find(|(h, _)| *h == header).map(|(_, v)| v)
     }
 
-    /// The column whose name, before its unit, is `name`; empty if there is none.
+    /// The column whose name, before its unit, is `name`; empty without such a column.
     #[must_use]
     pub fn column(&self, name: &str) -> &[f64] {
         self.iter().find(|(h, _)| h.split(" (").next() == Some(name)).map_or(&[], |(_, values)| values)

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What kind of statement a check makes.
+/// Kind of a check's statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
@@ -21,7 +21,7 @@ pub enum Kind {
     Wanted,
 }
 
-/// What a check found.
+/// Outcome of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Outcome {
@@ -35,7 +35,7 @@ pub enum Outcome {
     Failed,
 }
 
-/// What is said of one value.
+/// Verdict on one value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
     /// Name of the check.
@@ -46,11 +46,11 @@ pub struct Verdict {
     pub metric: String,
     /// Its value.
     pub value: Option<f64>,
-    /// What it is held against.
+    /// Reference value.
     pub reference: Option<f64>,
     /// Largest admissible distance from the reference (for a bound: the bound itself).
     pub tolerance: Option<f64>,
-    /// What came out.
+    /// Outcome.
     pub outcome: Outcome,
     /// Where reference and tolerance come from; why a check is not applicable.
     pub source: String,

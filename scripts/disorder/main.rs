@@ -1,4 +1,4 @@
-//! What keeps the particles of a liquid in order: the table of docs/disorder.md, made by a model of its own.
+//! Order of the particles of a liquid: the table of docs/disorder.md, made by a model of its own.
 //!
 //!     rustc --edition 2024 -O -C target-cpu=native -o disorder scripts/disorder/main.rs && ./disorder
 //!
@@ -14,7 +14,7 @@ use fluid::{Basis, Fluid, GRAVITY};
 use problem::{Problem, begin, wave_frequency, wave_shape};
 use std::f64::consts::PI;
 
-/// What a run does beside `fbar-consistent` with β = `relax` and ε = `share`; all is off at zero.
+/// Options of a run beside `fbar-consistent` with β = `relax` and ε = `share`; all are off at zero.
 #[derive(Clone, Copy)]
 struct Options {
     /// The wave's amplitude over 0.01 m.
@@ -84,7 +84,7 @@ impl Options {
     }
 }
 
-/// What is tried: its name and options.
+/// Candidates: name and options.
 const CANDIDATES: &[(&str, &[&str])] = &[
     ("`fbar-consistent` as it is", &[]),
     ("no relaxation, β = 0", &["relax=0"]),
@@ -116,7 +116,7 @@ const CANDIDATES: &[(&str, &[&str])] = &[
 const LOOK: usize = 20;
 const EVERY: usize = 10;
 
-/// What a run is judged by.
+/// Measures of a run.
 #[derive(Default)]
 struct Seen {
     /// Times (s) at which the mode passes zero.
@@ -125,7 +125,7 @@ struct Seen {
     gained: f64,
     gap: f64,
     j: (f64, f64),
-    /// Of the dam break: front (m) and rms p − Πp (Pa) at 0.4 s, kinetic and potential energy at the end over the start.
+    /// Dam break: front (m) and rms p − Πp (Pa) at 0.4 s, kinetic and potential energy at the end over the start.
     front: f64,
     rough: f64,
     left: f64,

@@ -15,12 +15,12 @@ const HEAD: &str = "fault,case,check";
 /// A check of a case.
 pub(crate) type Seer = (String, String);
 
-/// Of every fault, by name, the checks that see it.
+/// The checks that see every fault, by the name of the fault.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Kills(pub(crate) BTreeMap<String, BTreeSet<Seer>>);
 
 impl Kills {
-    /// What the repository has.
+    /// Reads the file of the repository.
     pub(crate) fn read(root: &Path) -> Self {
         let text = fs::read_to_string(root.join(FILE)).unwrap();
         let mut kills = Self::default();

@@ -30,10 +30,10 @@ const SWITCH: &str = "MPM_SEEDED_FAULT";
 /// Names the file in which a run writes what faults it could have had.
 const REACHED: &str = "MPM_SEEDED_REACHED";
 
-/// What stands for a check where the program ends without a record.
+/// Stand-in for a check where the program ends without a record.
 const NO_RECORD: &str = "(no record)";
 
-/// What the copy of the core gets besides the faults. A line that is reached says so once.
+/// Code added to the copy of the core besides the faults. A line that is reached reports it once.
 const SWITCHED: &str = r#"
 pub(crate) fn seeded(fault: &str, told: &std::sync::atomic::AtomicBool) -> bool {
     use std::io::Write as _;
@@ -139,7 +139,7 @@ impl<'a> Mutant<'a> {
         Some(verdicts)
     }
 
-    /// What the sound program comes to in some runs, and the faults that it could have had there.
+    /// Results of the sound program in some runs, and the faults that could have acted there.
     fn sound(&self, runs: Runs) -> Sound {
         let copy = tempfile::tempdir_in(self.copy).unwrap();
         let own = Mutant { copy: copy.path(), program: self.program.clone() };
@@ -148,8 +148,8 @@ impl<'a> Mutant<'a> {
         Sound { runs, verdicts, reached: names.lines().map(str::to_owned).collect() }
     }
 
-    /// What goes otherwise than it should, and which checks see which faults. Runs are short and take one thread
-    /// each: as many side by side as there are cores.
+    /// Deviations from the expected kills, and the checks that see each fault. Runs are short and take one thread each:
+    /// as many side by side as there are cores.
     fn complaints(&self) -> (Vec<String>, Kills) {
         let all: BTreeSet<Runs> = faults().flat_map(|f| f.seen_by.iter().map(|(runs, _)| *runs)).collect();
         let sound: Vec<Sound> = all.into_par_iter().map(|runs| self.sound(runs)).collect();

@@ -190,7 +190,7 @@ fn a_dry_body_carries_no_water() {
     }
 }
 
-/// What makes the results that are kept is one toolchain, and new enough for the packages.
+/// The kept results are made by one toolchain, new enough for the packages.
 #[test]
 fn the_workflows_pin_one_toolchain() {
     let value = |file: &str, name: &str| {

@@ -21,7 +21,7 @@ addEventListener("load", () => {
 });
 </script>"#;
 
-/// Around the copies, each in a phone: the window itself can't be as narrow. It writes down what it is told.
+/// Page around the copies, each in a phone: the window itself can't be as narrow. It writes down the messages it gets.
 const PHONES: &str = r#"<!DOCTYPE html><script>
 addEventListener("message", e => {
   document.body.append("\nbegin " + e.data + "\nend\n");
@@ -39,7 +39,7 @@ fn browser() -> Option<PathBuf> {
     })
 }
 
-/// What the browser finds on pages of a folder, line by line: `fault …`, `picture …`, `link …`, `id …`.
+/// Findings of the browser on pages of a folder, line by line: `fault …`, `picture …`, `link …`, `id …`.
 fn look_at(browser: &Path, folder: &Path, pages: &[String]) -> Vec<Vec<String>> {
     let mut phones = PHONES.to_owned();
     for page in pages {

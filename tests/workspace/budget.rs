@@ -1,4 +1,4 @@
-//! What the repository and its pull requests may cost.
+//! Budget of the repository and its pull requests.
 
 use super::{files, workspace};
 use mpm_verify::{cases, golden};
@@ -43,7 +43,7 @@ fn what_is_kept_of_nights_is_small() {
     }
 }
 
-/// Of files that git has: only a checkout can tell.
+/// Tests the files in git: only a checkout can tell.
 #[test]
 #[expect(clippy::print_stderr, reason = "says in a test's output what it could not measure")]
 fn what_is_tracked_is_small() {

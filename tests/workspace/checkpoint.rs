@@ -65,7 +65,7 @@ fn killed() -> tempfile::TempDir {
     folder
 }
 
-/// The same files, but for the time that the run took; and no checkpoint.
+/// Asserts the same files, except for the time that the run took and the checkpoint.
 fn assert_same(folder: &Path, straight: &Path) {
     let (mut found, mut expected) = (files(folder), files(straight));
     assert!(found.keys().eq(expected.keys()), "{:?}", found.keys());
@@ -178,7 +178,7 @@ fn what_is_not_the_checkpoint_of_the_run_is_refused_and_left_alone() {
     refused(of(&["run", "cook"]), &[run, "gimp-fbar-consistent-flip"], &sound);
     refused(of(&["run", "column"]), &[run, "column"], &sound);
 
-    // Of this run, but not sound.
+    // A checkpoint of this run, but not sound.
     let bytes = fs::read(&path).unwrap();
     let content = &bytes[24..];
     let flipped = |k: usize| {
@@ -288,7 +288,7 @@ fn a_run_with_snapshots_that_is_killed_has_them_all_in_its_collection() {
     assert!(!first.exists() && !pieces.join("snapshots").exists());
 }
 
-/// What was taken by the checkpointed piece of a run, from a checkpoint set back by a million seconds.
+/// Times of the checkpointed piece of a run, from a checkpoint set back by a million seconds.
 fn set_back(path: &Path) {
     type About = (String, ((u64, u32), (f64, f64)));
     let bytes = fs::read(path).unwrap();
@@ -348,7 +348,7 @@ fn end(job: &mut dyn Job) -> String {
     format!("{:?} {:?} {broken}", job.metrics(), job.particles())
 }
 
-/// Drives a job to its end, but for the places in `stops`, where another one, of the saved memory, takes over.
+/// Drives a job to its end; at each place in `stops` another one, made from the saved memory, takes over.
 fn drive(case: &Case, spec: &RunSpec, stops: &[usize]) -> (Vec<String>, String) {
     let name = format!("{} {}", case.name, spec.folder());
     let mut job = start_job(case, spec);
@@ -371,7 +371,7 @@ fn drive(case: &Case, spec: &RunSpec, stops: &[usize]) -> (Vec<String>, String) 
     (rows, end(job.as_mut()))
 }
 
-/// What leaves less ground in three dimensions and in a row of trials.
+/// Parameters for less ground in three dimensions and in a row of trials.
 fn less_ground(case: &Case) -> Option<[&'static str; 5]> {
     let last = match case.name {
         "landslide" => ["duration=0.1", "reduction=2"],

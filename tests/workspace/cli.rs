@@ -144,7 +144,7 @@ fn a_shell_is_told_the_names() {
     }
 }
 
-/// What ends a run is its verdict; colours and all but the verdict can be left out.
+/// A run ends with its verdict; colours and all text besides the verdict can be left out.
 #[test]
 fn a_run_ends_with_its_verdict_in_the_words_of_all_outcomes() {
     let run = |options: &[&str]| {
@@ -213,7 +213,7 @@ fn goldens_are_found_from_any_folder() {
     assert!(cook.unwrap().ends_with(" s"));
 }
 
-/// What users read is reviewed as a difference in a snapshot.
+/// Texts for users are reviewed as a difference in a snapshot.
 #[test]
 fn the_explanation_is_as_reviewed() {
     insta::assert_snapshot!("explain-cook", stdout(&mpm_verify(&["explain", "cook"])));

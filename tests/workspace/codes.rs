@@ -22,7 +22,7 @@ fn a_public_code_that_locks_fails_where_it_locks() {
     assert_eq!(code(&output), 1, "{}", stderr(&output));
 }
 
-/// The Python that has the peers' packages, if it is told or there.
+/// The Python with the peers' packages, if it is named by MPM_PYTHON or installed.
 fn taichi() -> Option<PathBuf> {
     let python = std::env::var_os("MPM_PYTHON").map_or("python3".into(), PathBuf::from);
     let mut import = std::process::Command::new(&python);

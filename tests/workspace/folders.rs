@@ -46,7 +46,7 @@ fn change(path: &Path, pointer: &str, value: Value) {
     fs::write(path, document.to_string()).unwrap();
 }
 
-/// What is a name in a file is never taken for a path.
+/// A name in a file is never taken for a path.
 #[test]
 fn names_in_files_lead_nowhere() {
     let scene = Scene::new();
@@ -114,7 +114,7 @@ fn a_report_removes_what_it_wrote_and_refuses_what_is_in_its_way() {
     assert_eq!(code(&scene.report()), 0);
     assert_eq!(fs::read_to_string(&account).unwrap(), whole);
 
-    // An account that names what is no report's is none.
+    // An account with a file of no report is refused.
     fs::write(&account, whole + "../victim.csv\nplan.json\ncook/../plan.json\n").unwrap();
     fs::write(scene.report.parent().unwrap().join("victim.csv"), "mine").unwrap();
     assert_eq!(code(&scene.report()), 0);

@@ -29,7 +29,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// What is damaged, and which share of the inputs it gets.
+/// Damaged formats, and the share of the inputs each gets.
 const FAMILIES: [(&str, usize); 15] = [
     ("record", 10),
     ("series and particles", 8),
@@ -60,7 +60,7 @@ fn inputs(family: &str) -> u32 {
     (all * share / 100) as u32
 }
 
-/// Checks so many values of a strategy, the same ones each time.
+/// Checks a number of values of a strategy, the same ones each time.
 fn check<S: Strategy>(family: &str, strategy: &S, test: impl Fn(&S::Value)) {
     let seed: u8 = std::env::var("MPM_FUZZ_SEED").map_or(1, |n| n.parse().unwrap());
     let config = Config { cases: inputs(family), failure_persistence: None, ..Config::default() };
@@ -77,7 +77,7 @@ fn check<S: Strategy>(family: &str, strategy: &S, test: impl Fn(&S::Value)) {
     }
 }
 
-/// What readers stumble over.
+/// Bytes that readers stumble over.
 const TOKENS: [&[u8]; 20] = [
     b"\0",
     b"\n",

@@ -12,7 +12,7 @@ fn a_sound_report_holds_against_its_goldens() {
     assert_eq!(scene.drift(), [""; 0]);
 }
 
-/// Of a case whose goldens are gone everything is new, and without their folder nothing is done.
+/// For a case without goldens everything is new, and without their folder nothing is done.
 #[test]
 fn without_goldens_a_report_drifts_and_without_their_folder_it_is_refused() {
     let scene = Scene::new();
@@ -81,7 +81,7 @@ fn work_is_compared_exactly_and_summed() {
     let drift = scene.drift();
     assert!(drift.len() == 1 && drift[0].contains("count of steps"), "{drift:?}");
 
-    // Of the pr tier's runs only those of the quick tier are blessed here.
+    // Only the quick tier's runs of the pr tier are blessed here.
     let error = mpm_verify::golden::pairs(&scene.golden, "cook").unwrap_err().to_string();
     assert!(error.contains("cook.json: no golden of "), "{error}");
 }

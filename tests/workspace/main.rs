@@ -64,8 +64,8 @@ fn workspace() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..").canonicalize().unwrap()
 }
 
-/// What is made once of the quick tier: its report, the goldens that were blessed of it, and the output of verifying it
-/// against them.
+/// Report of the quick tier, made once, the goldens that were blessed of it, and the output of verifying it against
+/// them.
 struct Quick {
     report: tempfile::TempDir,
     golden: tempfile::TempDir,

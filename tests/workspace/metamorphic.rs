@@ -1,5 +1,5 @@
-//! What no result may depend on: threads, the order of the particles, the place, axes and units of the scene, a stop on the
-//! way, another simulation beside it. `docs/metamorphic.md` says what is compared, and derives the bounds.
+//! Invariance of results: threads, the order of the particles, the place, axes and units of the scene, a stop on the
+//! way, another simulation beside it. `docs/metamorphic.md` states the comparisons, and derives the bounds.
 
 use mpm_core::Error;
 use mpm_solvers::trial::{Column, Length, Outcome, Trial, View, run};
@@ -11,12 +11,12 @@ use mpm_verify::spec::RunSpec;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-/// What a trial is compared by.
+/// Agreement demanded of a trial.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Agreement {
     /// Every bit, of its memory too.
     Memory,
-    /// Every bit of what is told.
+    /// Every bit of the columns.
     Bits,
     /// Up to rounding, by the bound of `docs/metamorphic.md`.
     Rounding,
@@ -66,7 +66,7 @@ impl Run {
         format!("{} {}", self.case.name, self.spec.folder())
     }
 
-    /// As far as a budget of pairs and so many steps go, or until before the step in which it breaks down.
+    /// Runs as far as a budget of `pairs` and `steps` goes, or until before the step in which it breaks down.
     fn base(&self, pairs: u64, steps: u64) -> Option<Outcome> {
         let trial = |length| Trial { view: View::Own, shuffled: false, shrunk: self.shrunk(), from: None, length };
         let begin = || (self.case.begin)(&self.spec, &self.parameters);
@@ -155,8 +155,8 @@ fn runs<K: Ord>(case: &'static Case, kind: fn(&RunSpec) -> K) -> Vec<Run> {
     cheapest.into_values().map(run).collect()
 }
 
-/// Roundings that a number goes through in a step, at most some so many one after the other: the sum over the nodes that a
-/// particle sees, and that over the particles that a node sees.
+/// Successive roundings of a number in a step, at most: the sum over the nodes that a particle sees, and that over the
+/// particles that a node sees.
 const ROUNDINGS: f64 = 64.0;
 
 /// How far a value of each column may lie off after some steps: the bound of `docs/metamorphic.md`.
@@ -226,9 +226,9 @@ fn distance(one: &Column, other: &Column) -> f64 {
     greatest
 }
 
-/// What a gate came to.
+/// Result of a gate.
 struct Gate {
-    /// What changed that may not.
+    /// Forbidden changes.
     found: String,
     /// Runs that were tried.
     runs: usize,
@@ -241,7 +241,7 @@ struct Gate {
 /// Pairs that a run of the first gate may take.
 const SMALL: u64 = 35_000;
 
-/// Tries all changes of some runs, as far as a budget of pairs and so many steps go.
+/// Tries all changes of some runs, as far as a budget of `pairs` and `steps` goes.
 fn gate(runs: impl Iterator<Item = Run>, pairs: u64, steps: u64) -> Gate {
     let mut gate = Gate { found: String::new(), runs: 0, pairs: 0, share: 0.0 };
     for run in runs {

@@ -65,13 +65,13 @@ fn zero_where_it_is_allowed_is_right_or_refused_by_name() {
     assert!(tried > 40, "{tried}");
 }
 
-/// What is right at the end of a range.
+/// Expected result at the end of a range.
 enum End {
     /// All that is judged holds.
     Right,
     /// A refusal that names the parameter.
     Refused,
-    /// Likewise, and this check is not judged.
+    /// All that is judged holds, and this check is not judged.
     NotJudged(&'static str),
 }
 
@@ -128,7 +128,7 @@ fn the_ends_of_ranges_are_right_or_told() {
     }
 }
 
-/// What is said and kept comes with rows: none is longer than so many steps, however long the run.
+/// Messages and checkpoints come with rows: the steps of a row are bounded, however long the run.
 #[test]
 fn a_row_of_a_long_run_has_so_many_steps_at_most() {
     let case = cases::find("vibrating-bar").unwrap();
@@ -146,7 +146,7 @@ fn a_row_of_a_long_run_has_so_many_steps_at_most() {
     assert!(job.pulse().time() > 0.0 && job.progress() < 1e-3);
 }
 
-/// What a run that no terminal shows says now and then.
+/// Progress lines of a run without a terminal.
 #[test]
 fn a_run_tells_how_far_it_has_come() {
     let (share, steps, time) = (0.0, 2000, 0.25);

@@ -17,7 +17,7 @@ fn the_commands_of_the_readme_are_run_by_continuous_integration() {
     }
 }
 
-/// What a newcomer types first is an alias of what builds the program.
+/// The first command for a newcomer is an alias that builds the program.
 #[test]
 fn the_first_command_of_the_readme_is_an_alias() {
     let (readme, config) = (read("README.md"), read(".cargo/config.toml"));
@@ -28,7 +28,7 @@ fn the_first_command_of_the_readme_is_an_alias() {
     assert!(aliases.contains("\"run\", \"--release\""), "{aliases}");
 }
 
-/// What stands under "More": each command is run as it stands, in a folder of its own.
+/// Commands under "More": each is run as it stands, in a folder of its own.
 #[test]
 fn every_command_of_the_readme_works() {
     let readme = read("README.md");

@@ -110,7 +110,7 @@ fn of_a_night_stay_its_rows_and_trends() {
     assert_eq!(one.lines().count() as u64, runs + 1);
     assert!(one.starts_with("case,scheme,level,set,") && one.contains(",2026-01-02,"));
 
-    // A row of another run stays as it was; the night is told again, once.
+    // A row of another run stays as it was; the night is reported again, once.
     let other = one.lines().nth(1).unwrap().replace(",h2,", ",h9,");
     fs::write(kept.join("nightly/results.csv"), format!("{one}{other}\n")).unwrap();
     night("2026-01-03");

@@ -79,7 +79,7 @@ impl Scene {
         fs::write(self.record(), record.to_string()).unwrap();
     }
 
-    /// What has drifted of both runs, a line each.
+    /// Drift of both runs, a line each.
     pub(super) fn drift(&self) -> Vec<String> {
         let goldens = Goldens::open(&self.golden).unwrap();
         let of_run = |run| {

@@ -24,7 +24,7 @@ fn write(folder: &Path, manifest: &Value) {
     fs::write(folder.join("score.json"), manifest.to_string()).unwrap();
 }
 
-/// What another code would say of a run.
+/// Manifest of another code for a run.
 fn manifest(case: &str, level: &str, set: &[&str]) -> Value {
     let parameters = set.iter().map(|set| {
         let (name, value) = set.split_once('=').unwrap();
@@ -200,7 +200,7 @@ fn a_result_stands_beside_ours() {
     }
 }
 
-/// What `export` writes tells every column and check, and is a result once the tables are there.
+/// The export describes every column and check, and is a result once the tables are there.
 #[test]
 fn what_is_exported_can_be_filled_in() {
     for (case, _, level, set) in RUNS {

@@ -1,5 +1,5 @@
-//! A siege of the program: commands that write are killed at random times and files damaged at random, over and over.
-//! What was killed ends as if it had not been, and what is damaged is refused, made again, or told.
+//! A siege of the program: commands that write are killed at random times and files damaged at random, over and over. A
+//! killed command ends as an undisturbed one, and a damaged file is refused, made again, or reported.
 //!
 //! `MPM_SIEGE` sets how many seconds it takes, an hour unless it is set, and `MPM_SIEGE_SEED` which it is; it writes its
 //! figures into docs/reliability.md. See `.ci/siege`.
@@ -34,7 +34,7 @@ struct Deed {
     arguments: Vec<&'static str>,
     /// Below its folder, what must end as without a kill.
     leaves: &'static str,
-    /// What it left without a kill.
+    /// Files it leaves without a kill.
     straight: BTreeMap<PathBuf, Vec<u8>>,
     code: Option<i32>,
     lasts: Duration,
@@ -71,7 +71,7 @@ fn deeds() -> Vec<Deed> {
     ]
 }
 
-/// What was tried and what came of it.
+/// Count of trials and outcomes.
 #[derive(Default)]
 struct Tally {
     commands: usize,
@@ -107,7 +107,7 @@ impl Tally {
 }
 
 struct Siege {
-    /// What must not be touched lies in it, beside the folder of the siege.
+    /// Root with the files that must not change, beside the folder of the siege.
     root: tempfile::TempDir,
     outside: BTreeMap<PathBuf, Vec<u8>>,
     deeds: Vec<Deed>,
@@ -208,7 +208,7 @@ impl Siege {
             .unwrap()
     }
 
-    /// Runs a command to its end, which is none of a panic, an abort or a hang.
+    /// Runs a command to its end, without a panic, an abort or a hang.
     fn command(&mut self, arguments: &[&str], place: &Path) -> Output {
         let mut child = self.start(arguments, place);
         let begun = Instant::now();
@@ -336,7 +336,7 @@ fn is_png(file: &Path) -> bool {
     file.extension().is_some_and(|e| e == "png")
 }
 
-/// What is in a folder: records without times and machine; of a verification, whose pages show times, the runs and the
+/// Content of a folder: records without times and machine; for a verification, whose pages show times, the runs and the
 /// names of the rest.
 fn left(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     if !folder.exists() {

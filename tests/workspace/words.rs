@@ -1,4 +1,4 @@
-//! What is said, and what may be said to the program.
+//! Messages of the program, and input that it must refuse.
 
 use super::scene::Scene;
 use super::{code, files, json, mpm_verify, stderr, stdout, text};
@@ -129,7 +129,7 @@ fn threads_are_bounded() {
     assert!(stderr(&output).contains(&format!("1..={}", 4 * cores)), "{}", stderr(&output));
 }
 
-/// What speaks against a number is named before it is blessed.
+/// Doubts about a number are named before it is blessed.
 #[test]
 fn doubtful_numbers_are_blessed_by_name_alone() {
     let scene = Scene::new();

@@ -30,7 +30,7 @@ pub struct BSpline<const S: usize> {
     pattern: Vec<usize>,
     /// The last interval, a whole number.
     last: f64,
-    /// Before the first and after the last of the intervals whose knots are equally spaced; infinite if there is none.
+    /// Coordinates before the first and after the last equally spaced knot interval; infinite without such an interval.
     uniform: (f64, f64),
     /// Per pattern: coefficient of the k-th power of the local coordinate for each function.
     polynomials: Vec<[[f64; S]; S]>,

@@ -56,7 +56,7 @@ pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
     ]
 }
 
-/// What `work` gives in a pool of `threads` threads.
+/// Result of `work` in a pool of `threads` threads.
 pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build().unwrap().install(work)

@@ -1,5 +1,5 @@
-//! What the machine is, and what its memory gives: a triad aᵢ = bᵢ + s cᵢ over arrays that no cache holds
-//! (McCalpin 1995).
+//! Description of the machine and its memory bandwidth, measured by a triad aᵢ = bᵢ + s cᵢ over arrays larger than any
+//! cache (McCalpin 1995).
 
 use crate::local::{Going, Local};
 use crate::turn::{Error, Turn};
@@ -53,7 +53,7 @@ pub fn processor() -> Option<String> {
     named(&std::fs::read_to_string("/proc/cpuinfo").ok()?)
 }
 
-/// Of the first core that `told` describes.
+/// Name of the first core described in `told`.
 fn named(told: &str) -> Option<String> {
     let field = |name: &str| {
         let value = told.lines().find_map(|line| {

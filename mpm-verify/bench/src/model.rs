@@ -1,4 +1,5 @@
-//! What a step of the workloads must move and compute, from the stages' columns: bytes and operations per particle.
+//! Data moved and operations computed by a step of the workloads, in bytes and operations per particle, from the
+//! stages' columns.
 //!
 //! Counted is what a stage reads and writes of its columns if nothing of it stays in a cache from one stage to the next,
 //! the particles' share of the nodes (two particles per cell and direction), and the multiplications and additions in

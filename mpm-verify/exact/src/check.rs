@@ -1,4 +1,4 @@
-//! What every solution must satisfy, by differences of eighth order that know nothing of its formulas.
+//! Equations that every solution must satisfy, checked by eighth-order differences independent of its formulas.
 
 use super::{Entry, Exact};
 use crate::parameter::Parameters;

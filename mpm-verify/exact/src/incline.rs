@@ -71,7 +71,7 @@ impl Incline {
         Ok(layer)
     }
 
-    /// What acts along an axis on the height `y` (Pa).
+    /// Load along an axis at the height `y` (Pa).
     fn weight(&self, axis: usize, y: f64) -> f64 {
         self.material.density * self.gravity[axis] * (self.size[1] - y)
     }

@@ -1,9 +1,8 @@
 //! Exact solutions: what a particle does at its reference point X and time t, in closed form.
 //!
-//! The manufactured ones (`mms-…`) hold for the neo-Hookean solid and need a body force; the others
-//! are solutions in their own right. One file each; `docs/exact.md` lists them. All motions start
-//! undeformed, so that a simulation needs no more than the initial velocity, but for the column at
-//! rest. [`slope`] is no motion but a limit load.
+//! The manufactured ones (`mms-…`) hold for the neo-Hookean solid and need a body force; the others are solutions in
+//! their own right. One file each; `docs/exact.md` lists them. All motions except the column at rest start undeformed,
+//! so that a simulation needs only the initial velocity. [`slope`] is no motion but a limit load.
 
 pub mod axis_aligned;
 #[cfg(test)]
@@ -50,7 +49,7 @@ use parameter::{Parameter, Parameters, Value, number, parameter};
 use serde::Serialize;
 use std::fmt;
 
-/// What was asked for is not allowed; the text names what is.
+/// Invalid request; the text names the valid values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct Error(pub String);
@@ -114,7 +113,7 @@ pub trait Exact: fmt::Debug + Send + Sync {
 pub struct Entry {
     /// Name.
     pub name: &'static str,
-    /// What it is, in a line.
+    /// Summary in one line.
     pub summary: &'static str,
     /// Parameters.
     pub parameters: &'static [Parameter],
@@ -148,7 +147,7 @@ pub fn all() -> &'static [Entry] {
 /// The solution of a name.
 ///
 /// # Errors
-/// There is none; the error lists those there are.
+/// The name is unknown; the error lists the known names.
 pub fn find(name: &str) -> Result<&'static Entry, Error> {
     all()
         .iter()
@@ -256,7 +255,7 @@ fn require_below([name, unit, otherwise]: [&str; 3], value: f64, limit: f64) -> 
     Err(Error(format!("parameter {name}: {value} {otherwise}; allowed: a size below {limit} ({unit})")))
 }
 
-/// What happens to a body whose amplitude is too large.
+/// Error if the amplitude of a motion is too large.
 const INVERTS: &str = "turns the body inside out (J ≤ 0)";
 
 /// sin ωt with its first and second derivative in time.

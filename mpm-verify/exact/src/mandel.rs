@@ -14,7 +14,7 @@ mod steps;
 use std::f64::consts::PI;
 pub use steps::of_particles;
 
-/// What is left out of a series.
+/// Size below which terms of a series are left out.
 const NOTHING: f64 = 1e-17;
 /// Terms at most of steps that damp hardly: beyond them are 10⁻⁸ after one step of T = 0.01, 10⁻¹⁵ after two of 0.005.
 const MOST: usize = 20_000;
@@ -30,7 +30,7 @@ struct Mode {
     mean: f64,
 }
 
-/// What is seen of a slab at a time.
+/// State of a slab at a time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slab {
     /// Pressure in the middle over F/(2a), the undrained one.
@@ -109,7 +109,7 @@ impl Mandel {
         Self::exact(ratio, |rate| (-rate * earliest).exp())
     }
 
-    /// Likewise after `fewest` steps of backward Euler's rule of duration `step` (T).
+    /// As [`Mandel::new`], after `fewest` steps of duration `step` (T) of backward Euler's rule.
     #[must_use]
     pub fn of_steps(ratio: f64, step: f64, fewest: i32) -> Self {
         Self::exact(ratio, |rate| (1.0 + rate * step).powi(-fewest))
@@ -166,8 +166,8 @@ impl Mandel {
         self.slab(|m| (-m.rate * t).exp())
     }
 
-    /// The slab after so many steps of backward Euler's rule of duration `step` (T): each leaves 1/(1 + s ΔT) of what
-    /// fades at the rate s.
+    /// The slab after `steps` steps of duration `step` (T) of backward Euler's rule: each multiplies a mode that decays
+    /// at the rate s by 1/(1 + s ΔT).
     #[must_use]
     pub fn after(&self, steps: i32, step: f64) -> Slab {
         self.slab(|m| (1.0 + m.rate * step).powi(-steps))

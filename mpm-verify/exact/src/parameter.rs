@@ -27,7 +27,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// What a parameter may be.
+/// Allowed values of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Domain {
     /// A number from `least` to `most`; with `below` the upper end is excluded.
@@ -85,7 +85,7 @@ pub struct Parameter {
     pub default: &'static str,
     /// Allowed values.
     pub domain: Domain,
-    /// What it is.
+    /// Meaning, for the help.
     pub meaning: &'static str,
 }
 
@@ -307,7 +307,7 @@ impl Parameter {
                 Ok(x) if !x.is_finite() => refuse("is not finite"),
                 Ok(0.0) if says_more_than_zero(text) => refuse("is too small to be told from 0"),
                 Ok(x) if x < least || x > most || (below && x == most) => refuse("is out of range"),
-                // Of two zeros one: the sign of the other would be seen in quotients.
+                // Both zeros become +0: the sign of −0 would be visible in quotients.
                 Ok(x) => Ok(Value::Number(x + 0.0)),
             },
             Domain::Integer { least, most } => match text.parse::<i32>() {
@@ -356,7 +356,7 @@ impl Parameters {
         Ok(Self(values))
     }
 
-    /// The value of a parameter; its default if there is none.
+    /// The value of a parameter, or its default.
     ///
     /// # Errors
     /// The value is of another type.

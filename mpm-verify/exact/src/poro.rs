@@ -6,9 +6,9 @@
 //! u_a = A sin(ωt) S(X_a) Π_{b≠a} C(X_b),
 //! p = ρ_w g (1 − x_d) + P (1 − cos ωt) cos(πX_d/2) Π_{b≠d} (1 + ½ C(X_b)),  x = X + u.
 //!
-//! On every side u has no normal component and F is diagonal: rollers are exact. There p varies along the normal as
-//! ρ_w g·x does, so that no water passes, but for the top, X_d = 1, where p = 0. At t = 0 nothing is strained and the water
-//! is at rest. Per undeformed volume equilibrium and the balance of water are
+//! On every side u has no normal component and F is diagonal: rollers are exact. There p varies along the normal as ρ_w
+//! g·x does, so that no water passes; at the top, X_d = 1, p = 0 instead. At t = 0 nothing is strained and the water is
+//! at rest. Per undeformed volume equilibrium and the balance of water are
 //!
 //! Div P + m g + ρ b = 0,  P = (σ′ − p I) cof F,  m = ρ_s (1 − n₀) + ρ_w (J − 1 + n₀),
 //! ∂J/∂t + Div Q = s,  Q = −κ(n) cof Fᵀ (F⁻ᵀ ∇p − ρ_w g),  n = 1 − (1 − n₀)/J.
@@ -50,7 +50,7 @@ pub struct SolidAndWater {
     pub angular_frequency: f64,
 }
 
-/// What it says of a reference point and time.
+/// State of the solution at a reference point and time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
     /// Displacement (m).
@@ -91,7 +91,7 @@ impl SolidAndWater {
         self.densities[1] * (1.0 - self.porosity)
     }
 
-    /// What it is at the reference point `x` (m), of which the first components count, and the time `t` (s).
+    /// State at the reference point `x` (m), of whose components the first `dimension` count, and the time `t` (s).
     #[must_use]
     pub fn at(&self, x: [f64; 3], t: f64) -> Moment {
         let (d, number) = (self.dimension, Number::splat);

@@ -326,7 +326,7 @@ struct Candidate {
 
 /// A mechanism of a family.
 trait Ranked: Copy {
-    /// What the best one has least of.
+    /// Quantity that is least for the best mechanism.
     fn number(&self) -> f64;
 }
 

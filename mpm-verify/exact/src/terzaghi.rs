@@ -10,7 +10,7 @@
 
 use std::f64::consts::PI;
 
-/// What is left out of the series, of its first term.
+/// Size relative to the first term below which terms of the series are left out.
 const NOTHING: f64 = 1e-17;
 /// Below this T the series takes more terms than waves that are reflected at the ends.
 const SHORT: f64 = 0.02;
@@ -104,7 +104,7 @@ impl FirstStep {
         Self { beside: 0.25 - r, diagonal: 0.25 + r }
     }
 
-    /// Largest p/q − 1 at the nodes of a column of so many cells of the pressure; zero where p is monotone.
+    /// Largest p/q − 1 at the nodes of a column of `cells` pressure cells; zero where p is monotone.
     #[must_use]
     pub fn overshoot(self, cells: u32) -> f64 {
         let Self { beside: a, diagonal: b } = self;
@@ -118,13 +118,14 @@ impl FirstStep {
     }
 }
 
-/// The settlement over q H/M after steps of these shares c_v Δt/h², by the equations of every step: `of` a share gives
-/// their entries in a cell of the pressure, of which the column has so many. What the pressure lacks of the load is d: zero
-/// at first, the load at the top from then on; M (d − d of the step before) + K d = 0, and a column settles by the mean of d.
+/// The settlement over q H/M after steps of the `shares` c_v Δt/h², by the equations of every step: `of` a share gives
+/// their entries in one of the column's `cells` pressure cells. The pressure's deficit against the load is d: zero at
+/// first, the load at the top from then on; M (d − d of the step before) + K d = 0, and a column settles by the mean of
+/// d.
 #[must_use]
 pub fn settlement_of_equations(of: impl Fn(f64) -> FirstStep, cells: usize, shares: &[f64]) -> f64 {
     let stored = of(0.0);
-    // A node has two cells, but for the one at the base.
+    // A node has two cells, the one at the base only one.
     let own = |entries: FirstStep, j: usize| entries.diagonal * if j < cells { 2.0 } else { 1.0 };
     let mut d = vec![0.0; cells + 1];
     for share in shares {
@@ -189,7 +190,7 @@ mod tests {
         let damped = |m: f64| durations.iter().fold(1.0, |left, dt| left / (1.0 + m * m * dt));
         let modes = (0..400).map(|k| (f64::from(k) + 0.5) * PI);
         let exact = 1.0 - modes.map(|m| 2.0 / (m * m) * damped(m)).sum::<f64>();
-        // Of the modes that are left out nothing is left.
+        // The modes left out have decayed to nothing.
         let error = |of: fn(f64) -> FirstStep, n: f64, cells: usize| {
             let shares: Vec<f64> = durations.iter().map(|dt| dt * n * n).collect();
             settlement_of_equations(of, cells, &shares) - exact

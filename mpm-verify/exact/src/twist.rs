@@ -135,7 +135,7 @@ pub(super) struct Shape {
     pub(super) dimension: usize,
     /// As [`Exact::extent`].
     pub(super) extent: [[f64; 2]; 3],
-    /// Of a reference point (m).
+    /// Function that gives the place of a reference point (m).
     pub(super) place: fn(&Vector3<f64>) -> Place,
 }
 

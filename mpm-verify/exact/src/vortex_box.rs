@@ -1,10 +1,9 @@
 //! Vortex in a box: isochoric, no curved boundary; derived here from the vortex in a ring.
 //!
-//! On the unit square a point turns about the centre by α = α₀ sin ωt · h(R),
-//! h = (1 − R²/R₀²)⁴ for R < R₀ = 0.4 m, zero beyond: smooth but for the fourth derivative at R₀, so b
-//! has two. The sides are fixed (rollers are exact too). u, b and P do not depend on λ: the error at
-//! ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m − μ (R α_R)²/3, zero in the exact
-//! solution, is another.
+//! On the unit square a point turns about the centre by α = α₀ sin ωt · h(R), h = (1 − R²/R₀²)⁴ for R < R₀ = 0.4 m,
+//! zero beyond: smooth except for the fourth derivative at R₀, so b has two. The sides are fixed (rollers are exact
+//! too). u, b and P do not depend on λ: the error at ν → ½ over that at ν = 0.3 is a direct measure of locking, and σ_m
+//! − μ (R α_R)²/3, zero in the exact solution, is another.
 
 use super::common::ANGULAR_FREQUENCY;
 use super::twist::{ANGLE, PLANE, Place, Shape, Vortex};

@@ -119,7 +119,7 @@ mod tests {
         }
     }
 
-    /// What the solution is for: ∂σ_m/∂n at a wall is as large as inside.
+    /// Purpose of the solution: ∂σ_m/∂n at a wall is as large as inside.
     #[test]
     fn the_pressure_has_a_gradient_normal_to_the_walls() {
         let s = check::solution(&ENTRY, &[]);

@@ -12,7 +12,7 @@ pub enum NameError {
     /// One of several kinds of names; the error lists those that are known.
     #[error("unknown {kind} \"{given}\"; allowed: {}", allowed.join(", "))]
     Unknown {
-        /// What it should name.
+        /// Kind of the name.
         kind: &'static str,
         /// The name.
         given: String,
@@ -70,7 +70,7 @@ pub enum TransferName {
     Xpic2,
     /// FLIP with strains from velocities that were mapped again.
     Musl,
-    /// Of an implicit solver, which has no choice of it.
+    /// No transfer: implicit solvers have no choice of it.
     None,
 }
 
@@ -168,7 +168,7 @@ pub enum SpaceName {
     TwoGrid,
     /// Those on the same cells.
     Equal,
-    /// Likewise, with a polynomial pressure projection.
+    /// Those on the same cells, with a polynomial pressure projection.
     Ppp,
 }
 

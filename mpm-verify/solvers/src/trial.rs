@@ -20,11 +20,11 @@ pub enum View {
     Mirrored(usize),
     /// Turned by a right angle, the first two axes into each other.
     Turned,
-    /// From so many cells aside, along every axis.
+    /// Shifted by this number of cells along every axis.
     Cells(f64),
-    /// From so far (m), along every axis.
+    /// Shifted by this distance (m) along every axis.
     Far(f64),
-    /// In units of which a metre and a pascal are so many.
+    /// In units in which a metre and a pascal have these values.
     Units(f64, f64),
 }
 
@@ -53,13 +53,14 @@ impl View {
 /// How far a trial goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Length {
-    /// Until so many pairs of particles and nodes or entries of factors have been worked on, or so many steps.
+    /// Until this number of pairs of particles and nodes or entries of factors has been worked on, or this number of
+    /// steps.
     Until(u64, u64),
-    /// So many steps.
+    /// This number of steps.
     Steps(u64),
 }
 
-/// What is tried.
+/// Set-up of a trial.
 #[derive(Debug, Clone)]
 pub struct Trial {
     /// Where the scene is seen from.
@@ -74,12 +75,12 @@ pub struct Trial {
     pub length: Length,
 }
 
-/// What a trial came to, as the scene's own frame has it.
+/// Result of a trial, in the scene's own frame.
 #[derive(Debug, Clone)]
 pub struct Outcome {
     /// All that can be asked of a simulation, particle by particle in seeding order.
     pub columns: Vec<Column>,
-    /// What is natural in the scene.
+    /// Natural scales of the scene.
     pub scales: Scales,
     /// The condition of the matrix of equilibrium at the end; NaN of a solver without one.
     pub condition: f64,
@@ -95,7 +96,7 @@ pub struct Outcome {
 
 /// Nodes along an axis that a particle sees, of most functions.
 const FEWEST_NODES: u64 = 3;
-/// What is left of the size of a domain that is shrunk: more than 10⁶ m away rounds off, of any number of them in a cell.
+/// Factor of the size of a shrunk domain: more than 10⁶ m away rounding sets in, for any number of particles in a cell.
 const SHRUNK: f64 = 1.0 - 1.0 / 1024.0;
 
 /// A trial before and after it has met its scene.

@@ -70,8 +70,8 @@ pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
     sets.map(|set| family(tier, levels, &main_pairs(), set))
 }
 
-/// What other transfers and numbers of particles per direction come to beside FLIP with the case's own two; rows that have
-/// FLIP alone are left out.
+/// Table of the results of other transfers and particle numbers per direction beside FLIP with the case's default of
+/// two; rows with FLIP results only are left out.
 pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&Record) -> String) -> ResultTable {
     let own =
         [("FLIP, 2 per direction", TransferName::Flip), ("APIC", TransferName::Apic), ("XPIC(2)", TransferName::Xpic2)];

@@ -5,8 +5,8 @@ use mpm_core::implicit::{Domains, Functions, HalfSizes, Interpolation, Moduli, P
 use mpm_core::{Error, Grid};
 use nalgebra::{DMatrix, DVector};
 
-/// What a function counts at least, of its value and its slope over a cell, at one particle: less is rounding. The
-/// solver's own limit.
+/// Least value of a function, or slope over a cell, that counts at a particle: less is rounding. The solver's own
+/// limit.
 const LEAST: f64 = 1e-12;
 
 /// Half the size of a point, over a cell's: a mean over none has no meaning. A function that is zero at the point is
@@ -23,7 +23,7 @@ pub(super) struct Cloud {
 }
 
 impl Cloud {
-    /// Of those places, so many along the axes from `corner` (m) at a `spacing` (m), that are `inside`.
+    /// Cloud of the `inside` places of a lattice of `count` places along the axes from `corner` (m) at a `spacing` (m).
     pub(super) fn new(corner: [f64; 2], count: [usize; 2], spacing: f64, inside: impl Fn(&[f64; 2]) -> bool) -> Self {
         let at = |a: usize, k: usize| corner[a] + (k as f64 + 0.5) * spacing;
         let rows = (0..count[1]).flat_map(|j| (0..count[0]).map(move |i| (i, j)));
@@ -64,16 +64,16 @@ impl Node {
 /// Functions on a grid at the particles of a cloud, and which of them are unknowns: those that see a particle and are
 /// not held.
 pub(super) struct Field {
-    /// Of every particle.
+    /// Functions at every particle.
     seen: Vec<Functions<2>>,
-    /// Of every node its place (m) and its value.
+    /// Place (m) and value of every node.
     nodes: Vec<([f64; 2], Node)>,
     /// How many unknowns there are.
     pub(super) count: usize,
 }
 
 impl Field {
-    /// Of functions `I`; a node whose function is not zero at one of the points `held` (m) is held.
+    /// Field of functions `I`; a node whose function is not zero at one of the points `held` (m) is held.
     pub(super) fn new<I: Interpolation<2>>(functions: &I, cloud: &Cloud, held: &[[f64; 2]]) -> Self {
         let h = functions.grid().h;
         let mut used = vec![false; functions.len()];
@@ -179,8 +179,8 @@ impl Field {
         matrix
     }
 
-    /// Penalties of a field with so many components. A facet of a cell that only rounding of a domain's end makes one
-    /// of the body has nodes that no particle sees, and is none.
+    /// Penalties of a field of `components` components. A facet that rounding alone makes one of the body has nodes
+    /// outside every particle's functions; it is skipped.
     pub(super) fn penalty(&self, penalties: &[Penalty], components: usize) -> DMatrix<f64> {
         let size = components * self.count;
         let mut matrix = DMatrix::zeros(size, size);

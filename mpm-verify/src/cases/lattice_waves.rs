@@ -1,4 +1,4 @@
-//! What functions of a regular grid see: particles, waves, and regular lattices of particles.
+//! Values of a regular grid's functions at particles, in waves, and on regular lattices of particles.
 
 use crate::scheme::BasisName;
 use std::f64::consts::{PI, TAU};

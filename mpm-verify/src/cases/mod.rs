@@ -123,7 +123,7 @@ pub fn scored() -> impl Iterator<Item = (&'static Case, &'static Foreign)> {
 /// The problem of a name by which other codes are scored.
 ///
 /// # Errors
-/// There is none; the error lists those there are.
+/// The name is unknown; the error lists the known names.
 pub fn find_scored(name: &str) -> Result<(&'static Case, &'static Foreign), Error> {
     let unknown = || Error::unknown("case that scores", name, FOREIGN.iter().map(|(n, _)| *n));
     scored().find(|(case, _)| case.name == name).ok_or_else(unknown)
@@ -139,7 +139,7 @@ pub fn place(name: &str) -> usize {
 /// The problem of a name.
 ///
 /// # Errors
-/// There is none; the error lists those there are.
+/// The name is unknown; the error lists the known names.
 pub fn find(name: &str) -> Result<&'static Case, Error> {
     let case = ALL.iter().find(|c| c.name == name);
     case.ok_or_else(|| Error::unknown("case", name, ALL.iter().map(|c| c.name)))

@@ -1,4 +1,4 @@
-//! What several problems set and observe in the same way.
+//! Set-up and observation shared by several problems.
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
 use crate::error::Error;
@@ -126,7 +126,7 @@ pub(super) fn settings<const D: usize>(
     }
 }
 
-/// The discretisation of a run in so many dimensions that takes steps of `dt` (s).
+/// The discretisation of a run in `dim` dimensions with steps of `dt` (s).
 pub(super) fn discretisation(dim: usize, spec: &RunSpec, parameters: &Parameters, dt: f64) -> Discretisation {
     let per_direction = parameters.number(PPC_PER_DIRECTION);
     Discretisation { dim, h: spec.level.h, ppc: per_direction.powi(dim as i32) as u32, dt, wall: parameters.text(WALL) }

@@ -7,8 +7,8 @@ use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
-/// What `fbar-consistent` keeps of a strain that Π can't see: ε of `docs/remedy.md`, whose square is the share of the bulk
-/// modulus that resists it.
+/// Share of an unseen strain (one that Π filters out) kept by `fbar-consistent`: ε of `docs/remedy.md`, whose square is
+/// the share of the bulk modulus that resists it.
 pub(super) const UNSEEN: f64 = 0.01;
 
 /// Words of [`WALL`].
@@ -96,7 +96,7 @@ pub(super) fn require_quotient(what: &str, value: f64, allowed: RangeInclusive<f
 /// order of one. A percent hides what cases of small strain are about.
 const HIDDEN: f64 = 0.01;
 
-/// The least strain that so many steps don't hide behind rounding.
+/// The least strain not lost in the rounding of `steps` steps.
 pub(super) fn least_strain(steps: f64) -> f64 {
     4.0 * f64::EPSILON * steps / HIDDEN
 }

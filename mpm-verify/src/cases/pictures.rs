@@ -1,4 +1,4 @@
-//! What the pictures of several problems have in common: their runs, curves by remedy, and how they are hung.
+//! Parts shared by the pictures of several problems: their runs, curves by remedy, and their arrangement.
 
 use crate::draw::style::history;
 use crate::draw::{Chart, FieldFigure, Series, draw_charts, draw_fields};
@@ -41,12 +41,12 @@ pub(super) fn spacing(record: &Record) -> f64 {
 /// The runs that a case shows, and the place for its pictures.
 pub(super) struct Exhibit<'a, 'g> {
     pub(super) gallery: &'a mut Gallery<'g>,
-    /// Of several runs alike the first is shown.
+    /// The runs shown; the first of several alike.
     pub(super) records: Vec<&'g Record>,
 }
 
 impl<'a, 'g> Exhibit<'a, 'g> {
-    /// Of those of `records` that [are shown](is_shown).
+    /// The records among `records` that [are shown](is_shown).
     pub(super) fn new(gallery: &'a mut Gallery<'g>, records: impl IntoIterator<Item = &'g Record>) -> Self {
         let records = records.into_iter().filter(is_shown).collect();
         Self { gallery, records }

@@ -95,18 +95,18 @@ fn checks() -> Vec<Check> {
             .when(is_sound)
             .at_most(DISPLACEMENT_LINF, interpolation)
             .because("what piecewise linear functions leave of a displacement that is quadratic in depth"),
-        Gate::truth("base-pressure", "likewise: the mean pressure at the foot is (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
+        Gate::truth("base-pressure", "GIMP and quadratic splines, all but fbar-recursive: the mean pressure at the foot is (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
             .when(is_sound)
             .within(BASE_PRESSURE, base_pressure, |r| {
                 let share = 0.25 * r.h / r.values.number(THICKNESS);
                 share * base_pressure(r)
             })
             .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
-        Gate::truth("no-growth", "likewise: the largest kinetic energy of the last third of the run is at most twice that of the middle third, but for what last bits can walk to")
+        Gate::truth("no-growth", "GIMP and quadratic splines, all but fbar-recursive: the largest kinetic energy of the last third is at most twice that of the middle third, and rounding")
             .when(is_sound)
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
-        Gate::truth("no-creep", "likewise, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
+        Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
             .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
@@ -126,7 +126,7 @@ fn is_sound(r: &Run<()>) -> bool {
     r.remedy() != FbarRecursive && r.basis() != Bspline3
 }
 
-/// What piecewise linear functions leave of the displacement (m), whose curvature is ρ g sin θ/μ (1/m).
+/// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ (1/m).
 fn interpolation(r: &Run<()>) -> f64 {
     let number = |p| r.values.number(p);
     let shear = 0.5 * number(YOUNG_MODULUS) / (1.0 + number(POISSON_RATIO));

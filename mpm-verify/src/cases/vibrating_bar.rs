@@ -208,7 +208,7 @@ fn checks() -> Vec<Check> {
             .when(|r| is_cubic(r) && !feeds_null_space(r) && moves(&r.values))
             .at_most(AMPLITUDE_RATIO, |_| HALF)
             .because("the lumped mass of cubics next to a wall has its centre off the node"),
-        Gate::truth("frequency", "relative error of the frequency at most ½ (kh)², but for fbar-recursive and for waves of cubic splines with F̄ of which less than a twentieth is left")
+        Gate::truth("frequency", "relative error of the frequency at most ½ (kh)², except with fbar-recursive and waves of cubic splines with F̄ damped below a twentieth")
             .when(|r| r.remedy() != FbarRecursive && moves(&r.values))
             .own(|r| vec![of_frequency(r)]),
         Gate::truth("no-energy-gain", "kinetic + stored energy never above its start by more than a share of the largest kinetic energy: explicit ½ ωΔt, the offset by half a step of velocities and positions, remedies that store what their force takes; midpoint the strain kA")

@@ -82,7 +82,7 @@ pub(crate) enum Command {
     Tables(keep::Tables),
     /// Draw the pictures of README and docs from the rows that are kept and from finished runs
     ///
-    /// What they do not suffice for is named and left.
+    /// Pictures that need other runs are listed and left unchanged.
     Pictures(keep::Pictures),
     /// Name the runs of a tier that no kept row is of (exit code 2), and the rows that another program made
     Complete(keep::Complete),

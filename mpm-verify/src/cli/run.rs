@@ -34,7 +34,7 @@ pub(crate) struct Run {
     /// Basis functions (gimp; of a quasi-static run those of its first in the case)
     #[arg(long, value_parser = one_of(BasisName::NAMES, BasisName::parse))]
     basis: Option<BasisName>,
-    /// Locking remedy (fbar-consistent; likewise)
+    /// Locking remedy (default: fbar-consistent, or the first remedy of the case)
     #[arg(long, value_parser = one_of(RemedyName::NAMES, RemedyName::parse))]
     remedy: Option<RemedyName>,
     /// Transfer of an explicit run (flip)
@@ -52,11 +52,11 @@ pub(crate) struct Run {
     /// Folder for record, series, particles, VTU and pictures
     #[arg(long, group = "folder")]
     out: Option<PathBuf>,
-    /// In place of --out: go on in this folder from the checkpoint that the same run has left there,
-    /// with the same results to the last bit; begin if there is none
+    /// Resume from this folder's checkpoint of the same run, or start without one; bit-identical results (replaces
+    /// --out)
     #[arg(long, value_name = "DIR", group = "folder")]
     resume: Option<PathBuf>,
-    /// Write a checkpoint so often, by the clock; 0: after every row of the series
+    /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
     checkpoint_every: u64,
     /// Threads (all cores if not given)
@@ -119,7 +119,7 @@ pub(crate) struct Scene {
     /// In place of --out: go on in this folder from the checkpoint that the same scene has left there
     #[arg(long, value_name = "DIR", group = "folder")]
     resume: Option<PathBuf>,
-    /// Write a checkpoint so often, by the clock; 0: after every row of the series
+    /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
     checkpoint_every: u64,
     /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
@@ -225,8 +225,8 @@ fn tell(case: &Case, record: &Record, told: Told) -> Result<ExitCode, Error> {
     Ok(exit_code(record))
 }
 
-/// The record of this very run in a folder, judged again, or `None` if it has not ended there. One whose tables are not
-/// what the run wrote is told, and the run made again.
+/// The record of this very run in a folder, judged again, or `None` if it has not ended there. If its tables differ
+/// from those the run wrote, this is reported and the run made again.
 fn ended(case: &Case, spec: &RunSpec, folder: &Path, told: Told) -> Result<Option<Record>, Error> {
     let Some(mut record) = own_record(folder, case, spec)? else {
         return Ok(None);

@@ -34,7 +34,7 @@ pub(crate) struct Verify {
     /// it has left a checkpoint of
     #[arg(long)]
     resume: bool,
-    /// Write a checkpoint of every run so often, by the clock; 0: after every row of its series
+    /// Checkpoint interval of every run in wall-clock seconds (0: after every row of its series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
     checkpoint_every: u64,
     /// Folder of the report

@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// The page says that at least so many steps of a blessing are failed at.
+/// Least number of steps of a blessing with an injected failure, as stated by the page.
 const LEAST: usize = 20;
 
 /// A run whose golden has all that there is: numbers, the picture of a series, a field and its picture.
@@ -57,15 +57,15 @@ fn holds(root: &Path, (record, folder): (&Record, &Path)) -> bool {
     !(goldens.compare(record, folder).unwrap().iter()).any(Verdict::drifts)
 }
 
-/// What has its name, in `folder`.
+/// Files with their final name in `folder`.
 fn named(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut files = walk(folder);
     files.retain(|path, _| path.extension().is_none_or(|e| e != "part"));
     files
 }
 
-/// Wherever blessing fails, the old run still holds against the old files or the new one against the new ones, and a mixture
-/// is told as drift of both, until it is given again: that ends with the files of one that has not failed.
+/// Wherever blessing fails, the old run still agrees with the old files or the new one with the new ones, and a mixture
+/// is reported as drift of both. Blessing again ends with the files of an undisturbed one.
 #[test]
 fn a_blessing_survives_failures_at_every_step() {
     let [of_old, of_new, before] = [(); 3].map(|()| tempfile::tempdir().unwrap());

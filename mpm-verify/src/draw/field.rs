@@ -28,7 +28,7 @@ pub struct FieldPanel {
 }
 
 impl FieldPanel {
-    /// Of its particles those at places of which `shown` holds.
+    /// Keeps only particles at places where `shown` holds.
     #[must_use]
     pub fn showing(mut self, shown: impl Fn((f64, f64)) -> bool) -> Self {
         let particles = self.points.into_iter().zip(self.values);
@@ -68,7 +68,7 @@ pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
 }
 
 /// Draws figures one after the other as an animated PNG at half the size, each shown for a `delay` of hundredths of a
-/// second. Their panels should be the same but for the particles.
+/// second. Their panels should differ in the particles alone.
 ///
 /// # Errors
 /// As [`draw_fields`]; or there are no figures.

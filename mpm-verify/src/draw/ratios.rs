@@ -23,11 +23,11 @@ pub enum Ratio {
 pub struct Ratios {
     /// Title.
     pub title: String,
-    /// What a ratio below one and above one means.
+    /// Meaning of a ratio below one and of one above.
     pub sides: [String; 2],
-    /// What [`Ratio::Least`] and [`Ratio::Most`] mean.
+    /// Meaning of [`Ratio::Least`] and [`Ratio::Most`].
     pub ends: [String; 2],
-    /// What is compared: a marker each.
+    /// Kinds that are compared: a marker each.
     pub kinds: Vec<String>,
     /// Name and, kind by kind, ratio.
     pub rows: Vec<(String, Vec<Option<Ratio>>)>,

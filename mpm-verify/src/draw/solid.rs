@@ -42,7 +42,7 @@ pub struct SolidFigure {
     pub range: (f64, f64),
     /// Label of the colour bar, with unit.
     pub label: String,
-    /// What is shown of each axis (m): particles beyond, by more than half their size, are left out, and the marks run
+    /// Shown range of each axis (m): particles beyond, by more than half their size, are left out, and the marks run
     /// along its edges. The ground lies at the lower end of y.
     pub window: [(f64, f64); 3],
 }
@@ -151,7 +151,7 @@ struct Screen {
 }
 
 impl Screen {
-    /// Of a size that holds a window and is no wider than `most`.
+    /// Screen of a size that holds a window and is no wider than `most`.
     fn new(window: &[(f64, f64); 3], most: f64) -> Self {
         let (st, ct) = AZIMUTH.to_radians().sin_cos();
         let (se, ce) = ELEVATION.to_radians().sin_cos();
@@ -195,7 +195,8 @@ impl Screen {
         corners.map(|(x, z)| self.flat([x, y.0, z]))
     }
 
-    /// Depth and colour of the nearest sphere at every fine pixel, far away where there is none; `None` without any.
+    /// Depth and colour of the nearest sphere at every fine pixel, far away for a pixel beside all spheres; `None`
+    /// without any.
     fn spheres(&self, panel: &SolidPanel, range: Point) -> Option<Vec<(f64, Rgb)>> {
         // A particle on the ground may have sunk in a little.
         let half = panel.size / 2.0;

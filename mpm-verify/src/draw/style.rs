@@ -48,7 +48,7 @@ pub(crate) fn history(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
 
 /// Schemes whose curves share a pair of axes.
 pub(crate) struct Panel {
-    /// What they have in common; may be empty.
+    /// Common title of the schemes; may be empty.
     pub(crate) title: String,
     pub(crate) schemes: Vec<Scheme>,
 }
@@ -76,7 +76,7 @@ impl Panels {
     /// All schemes in one panel while they can be told apart, else a panel for every basis.
     pub(crate) fn new(schemes: &BTreeSet<Scheme>) -> Self {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
-        // Of one basis, as all the same curves.
+        // Schemes with their basis replaced by one, as all bases have the same curves.
         let others: BTreeSet<Scheme> = schemes.iter().map(|s| s.with(BasisName::Linear, s.remedy())).collect();
         let transfers: BTreeSet<_> = others.iter().map(|s| s.transfer()).collect();
         if schemes.len() <= MOST_CURVES && transfers.len() == 1 {

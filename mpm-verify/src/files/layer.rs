@@ -66,7 +66,7 @@ impl Output {
         Ok(Self { file, path })
     }
 
-    /// What has been written stays even if the machine fails.
+    /// Syncs the file, so that its content survives a failure of the machine.
     pub(crate) fn sync(&self) -> io::Result<()> {
         pass(Step::Sync, &self.path)?;
         self.file.sync_all()

@@ -72,13 +72,13 @@ impl Goldens {
         golden.write(&file(&self.root, case.name))
     }
 
-    /// What is kept of a run, if anything is.
+    /// The golden of a run, if there is one.
     #[must_use]
     pub fn kept(&self, record: &Record) -> Option<&Run> {
         self.find(record).ok().map(|(run, _)| run)
     }
 
-    /// What is kept of a run, and the last line of its file's blessings; or why nothing is.
+    /// The golden of a run, and the last line of its file's blessings; or the reason for its absence.
     fn find(&self, record: &Record) -> Result<(&Run, &str), &str> {
         let golden = self.cases.get(&*record.case).ok_or("no such case")?;
         let golden = golden.as_ref().map_err(String::as_str)?;
@@ -117,8 +117,8 @@ impl Goldens {
         Ok(verdicts)
     }
 
-    /// Of the first run that the picture of a case shows: whether that, drawn from what was blessed, and of this run from
-    /// what has not drifted, is the one that is kept.
+    /// Verdict on the picture of a case, for the first run it shows: whether the picture drawn from the blessed
+    /// columns, and from this run's columns without drift, is the kept one.
     fn judge_picture(&self, now: &Now<'_>, blessing: &str) -> Option<Verdict> {
         let golden = self.cases.get(&*now.record.case)?.as_ref().ok()?;
         let mut shown = golden.shown();
@@ -153,7 +153,7 @@ impl Goldens {
     }
 }
 
-/// What a run has now.
+/// Present values of a run.
 struct Now<'a> {
     record: &'a Record,
     series: Table,

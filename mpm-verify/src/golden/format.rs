@@ -17,7 +17,7 @@ const LOOSE: f64 = 10.0;
 const LOOSE_SHARE: f64 = 0.1;
 /// Most curves of a picture.
 const SHOWN: usize = 6;
-/// What stands before the name of a column of the series, and of a count of work.
+/// Prefixes of the name of a column of the series, and of a count of work.
 pub(super) const SERIES: &str = "series/";
 pub(super) const WORK: &str = "work/";
 
@@ -29,7 +29,7 @@ pub struct Point {
     pub time: Option<f64>,
     /// Value, in the unit of its quantity.
     pub value: f64,
-    /// What the perturbed twin differed by, at most until then.
+    /// Difference of the perturbed twin, at most until then.
     pub response: f64,
 }
 
@@ -192,7 +192,7 @@ impl Golden {
         let all = || self.runs.iter().filter(|run| run.has_series());
         let setting = |run: &Run| run.name.split_once('/').map(|(_, setting)| setting.to_owned());
         let count = |run: &&Run| all().filter(|r| setting(r) == setting(run)).count();
-        // Of as many, the first.
+        // The first among equally frequent settings.
         let most = all().rev().max_by_key(count).and_then(setting);
         let own = all().filter(|run| setting(run) == most);
         own.take(SHOWN).cloned().collect()

@@ -13,7 +13,7 @@ use std::path::Path;
 const ROWS: usize = 8;
 
 impl Run {
-    /// Of a run whose outputs lie in `folder`, and its perturbed twin.
+    /// Golden of a run whose outputs lie in `folder`, and its perturbed twin.
     ///
     /// # Errors
     /// The case is not known, or a series can't be read.
@@ -89,7 +89,7 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
     (!column.points.is_empty()).then_some(column)
 }
 
-/// A number to so many significant digits: what is beyond them is far below any tolerance.
+/// A number to `digits` significant digits: the rest is far below any tolerance.
 pub(super) fn rounded(number: f64, digits: usize) -> f64 {
     let text = format!("{number:.*e}", digits - 1);
     text.parse().unwrap_or(number)

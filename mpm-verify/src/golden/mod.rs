@@ -35,7 +35,7 @@ pub const BLUNT: f64 = FLOOR / 100.0;
 pub const MARGIN: f64 = 10.0;
 /// Name of the check.
 const CHECK: &str = "golden";
-/// The count that stands for the cost of a run, and that is told where none has changed.
+/// The count that stands for the cost of a run, and that is reported where no count has changed.
 const PAIRS: &str = "work/particle_node_pairs";
 /// The count that stands for the cost of a run by Newton's method.
 const NONZEROS: &str = "work/nonzeros";

@@ -51,7 +51,7 @@ fn curve(run: &Run, header: &str) -> Result<Series, Error> {
     Ok(series(scheme, points.collect()))
 }
 
-/// What `draw` writes, so wide and in few shades.
+/// Picture written by `draw`, scaled to this width (pixels) and few shades.
 pub(super) fn small(width: u32, draw: impl Fn(&Path) -> Result<(), PlotError>) -> Result<RgbImage, Error> {
     let folder = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let path = folder.path().join("picture.png");

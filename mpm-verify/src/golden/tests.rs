@@ -18,7 +18,7 @@ struct Made {
 }
 
 impl Made {
-    /// Of the case's first run, which its pictures show, or another; blessed.
+    /// The case's first run, which its pictures show, or another; blessed.
     fn of(which: usize) -> Self {
         let spec = cases::find("cook").unwrap().runs(TIER).remove(which);
         let mut record = record(spec.level.name, Vec::new());
@@ -85,7 +85,7 @@ impl Made {
         goldens.compare(&self.record, self.folder.path()).unwrap()
     }
 
-    /// What has drifted, with its numbers.
+    /// Drifted quantities, with their numbers.
     fn drift(&self) -> Vec<(String, Option<f64>, String)> {
         let drifts = self.compare().into_iter().filter(Verdict::drifts);
         drifts.map(|v| (v.metric, v.value, v.source)).collect()
@@ -134,7 +134,7 @@ fn a_run_is_that_which_was_blessed() {
     assert!(of_series.source.contains("as it should be"), "{}", of_series.source);
 }
 
-/// Of a metric, of a row of a series as far as its column's scale allows, and of a count not at all.
+/// Tolerances of a metric, of a row of a series by its column's scale, and of a count, which is exact.
 #[test]
 fn what_moves_by_more_than_its_tolerance_drifts() {
     let mut made = Made::of(1);
@@ -166,12 +166,12 @@ fn what_moves_by_more_than_its_tolerance_drifts() {
             assert!(drift[0].2.starts_with(&format!("at time {time}; blessed ")), "{}", drift[0].2);
         }
     }
-    // Of two that have moved, that which has moved further.
+    // With two moved rows, the one that has moved further is reported.
     let mut series = made.series();
     (series[1].1[3], series[1].1[7]) = (4.1, 16.2);
     made.write("series.csv", &series);
     assert_eq!(made.drift()[0].1, Some(16.2));
-    // Of another time there is none.
+    // A row at another time is reported as missing.
     let mut series = made.series();
     series[0].1[1] += 1e-8;
     made.write("series.csv", &series);

@@ -53,7 +53,7 @@ mod tests {
         assert_eq!(table(none), None);
     }
 
-    /// What the README says to take are schemes, each with what it finds and where it fails.
+    /// The README's recommendations are schemes, each with its findings and failures.
     #[test]
     fn the_readme_names_schemes() {
         let markdown = advice().unwrap().markdown();

@@ -17,8 +17,8 @@ use std::path::Path;
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";
-/// What a run's error must be of that of its scheme's line so far for the line to go on to it: else runs with a smaller time
-/// step, dearer and no better, would bend the line.
+/// Largest ratio of a run's error to the error so far on its scheme's line for the line to go on to it: otherwise runs
+/// with a smaller time step, dearer and no better, would bend the line.
 const GAIN: f64 = 0.9;
 /// Colour of the front.
 const FRONT: usize = 7;
@@ -93,7 +93,7 @@ fn write_points(convergence: &[Convergence], path: &Path) -> Result<(), Error> {
     write_csv(path, &header.map(str::to_owned), rows)
 }
 
-/// What a run costs: file of the picture, in words, label of the axis, and of a point.
+/// A measure of cost: file of the picture, in words, label of the axis, and value at a point.
 type Cost = (&'static str, &'static str, &'static str, fn(&Point) -> f64);
 
 const COSTS: [Cost; 2] = [
@@ -170,8 +170,8 @@ mod tests {
         }
     }
 
-    /// Of two curves of a scheme the line joins what is clearly better than all that is cheaper; the front goes through the
-    /// best runs of all.
+    /// With two curves of a scheme the line joins points that are clearly better than all cheaper ones; the front goes
+    /// through the best runs of all.
     #[test]
     fn a_line_joins_what_its_scheme_does_best() {
         let curves = [

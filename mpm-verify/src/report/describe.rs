@@ -239,7 +239,7 @@ pub fn drift_line(v: &Verdict) -> String {
     }
 }
 
-/// What failed in a verification: checks, drift, breakdowns that were not known.
+/// Failures of a verification: checks, drift, unknown breakdowns.
 #[must_use]
 pub fn failures(summary: &Summary) -> String {
     let mut t = String::new();
@@ -266,7 +266,7 @@ pub fn failures(summary: &Summary) -> String {
     t
 }
 
-/// What a verification found: failures first, then counts, at the end the verdict in one line.
+/// Findings of a verification: failures first, then counts, at the end the verdict in one line.
 #[must_use]
 pub fn verification(summary: &Summary) -> String {
     let mut t = failures(summary);
@@ -293,7 +293,7 @@ pub fn verification_line(summary: &Summary) -> String {
     format!("Verdict: {}\n", painted(of, &what))
 }
 
-/// What a verification found, as JSON: its counts, and each run that did not end well.
+/// Findings of a verification, as JSON: its counts, and each run that did not end well.
 #[must_use]
 pub fn verification_json(summary: &Summary) -> Value {
     let records = summary.cases.iter().flat_map(|s| &s.records);

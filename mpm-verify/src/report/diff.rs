@@ -22,7 +22,7 @@ struct PictureChange {
     new: Option<RgbImage>,
 }
 
-/// What differs between two report folders.
+/// Differences between two report folders.
 pub struct Difference {
     names: [String; 2],
     /// (run, metric) with the old and the new value, where they are not the same.

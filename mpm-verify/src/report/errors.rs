@@ -21,7 +21,7 @@ pub(super) struct Entry<'a> {
 /// Errors of runs, by scheme in the order of their abscissae.
 pub(super) struct Errors<'a> {
     pub(super) entries: Vec<Entry<'a>>,
-    /// Of the abscissa.
+    /// Label of the abscissa.
     pub(super) label: &'static str,
     pub(super) is_logarithmic: bool,
 }

@@ -6,8 +6,8 @@ use crate::study::judge::{broke_as_known, outcome_of_run};
 use crate::verdict::Outcome;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Of a case, the rms of what is noise in its stress or pressure, and the rms that it is to be held against, where it
-/// isn't a ratio already.
+/// Case, metric of the noise in its stress or pressure (rms), and metric of the reference rms, unless the first is a
+/// ratio already.
 const NOISE: [(&str, &str, Option<&str>); 6] = [
     ("cook", "checkerboard_ratio", None),
     ("footing", "checkerboard_ratio", None),
@@ -37,7 +37,7 @@ impl Fate {
     pub(super) const ALL: [Self; 6] =
         [Self::Right, Self::WrongAsKnown, Self::Noisy, Self::BreaksDown, Self::NotJudged, Self::Failed];
 
-    /// Of a run with its verdicts.
+    /// Fate of a run with its verdicts.
     pub(super) fn of(record: &Record) -> Self {
         match outcome_of_run(record) {
             Outcome::Failed => Self::Failed,

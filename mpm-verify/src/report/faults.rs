@@ -8,7 +8,7 @@ const SEEN: &str = include_str!("../../assets/kills.csv");
 /// A fault.
 #[derive(Default)]
 pub(super) struct Fault {
-    /// What is wrong.
+    /// Name of the fault.
     pub(super) name: String,
     /// The checks that see it, case by case.
     pub(super) seen_by: BTreeMap<String, Vec<String>>,

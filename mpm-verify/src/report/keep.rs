@@ -1,4 +1,4 @@
-//! What stays of a night's report: a row a run, and trends. Pages are filled from the rows: `tables`.
+//! Parts of a night's report that are kept: a row a run, and trends. Pages are filled from the rows: `tables`.
 //!
 //! A night may hold some cases alone. Its rows replace those of the same runs, and the others stay, each with the
 //! night and the program that made it.

@@ -170,7 +170,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// What the marks of errors say; empty where there are none.
+    /// Legend of the marks of errors; empty without marks.
     pub(super) fn marks(&self) -> Text {
         let marks = self.errors.iter().zip('a'..='z');
         let marks = marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));

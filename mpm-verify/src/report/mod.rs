@@ -1,4 +1,4 @@
-//! What is shown: pictures, tables, files for other programs.
+//! Reports: pictures, tables, files for other programs.
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
@@ -107,9 +107,9 @@ fn draw_own(case: &Case, study: &CaseStudy, gathered: &Gathered, out: &Path) -> 
     Ok(gallery.pictures())
 }
 
-/// The file that names what this program has written in a folder: by it a file of the user is told from one of an
-/// earlier report, and stays. Its first line alone claims all, which holds while a report is being written, and of one that
-/// was killed.
+/// The file that names everything this program has written in a folder: it distinguishes a file of the user, which
+/// stays, from one of an earlier report. Its first line alone claims all, which holds while a report is being written,
+/// and after a killed one.
 const OWN: &str = ".mpm-verify";
 const CLAIM: &str = "mpm-verify writes and removes the pages, pictures and tables of this folder.\n";
 

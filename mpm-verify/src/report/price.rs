@@ -1,4 +1,4 @@
-//! What an error costs: the runs that no other beats, and the cost to reach a target error.
+//! Cost of an error: the runs on the Pareto front, and the cost to reach a target error.
 
 use super::words;
 use crate::cases;
@@ -33,14 +33,14 @@ pub(super) fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
     front.iter().take(1).copied().chain(corners).collect()
 }
 
-/// What a target error costs with every scheme.
+/// Prices of a target error with every scheme.
 #[derive(Debug, PartialEq)]
 pub(super) struct Prices {
     /// Whether it is an error of the stress, not of the motion.
     pub(super) of_stress: bool,
     /// The metric.
     pub(super) metric: String,
-    /// What it is.
+    /// Label of the error.
     pub(super) label: &'static str,
     /// The target: the least error that half of the schemes reach with one of their runs.
     pub(super) target: f64,
@@ -48,7 +48,7 @@ pub(super) struct Prices {
     pub(super) rows: Vec<Price>,
 }
 
-/// What a target error costs with a scheme.
+/// Price of a target error with a scheme.
 #[derive(Debug, PartialEq)]
 pub(super) struct Price {
     pub(super) scheme: Scheme,
@@ -72,9 +72,9 @@ pub(super) struct Cost {
 }
 
 impl Prices {
-    /// Of the errors of a case in its own problem that two schemes have at two levels: the first of the motion, then the
-    /// last of the stress, which is that of the pressure. Of the case's own kind of solver: another kind does other work
-    /// for a pair, and more beside it.
+    /// Prices of the errors that two schemes of the case's own problem have at two levels: the first error of the
+    /// motion, then the last of the stress, which is that of the pressure. Solvers of the case's own kind only: another
+    /// kind does other work for a pair, and more beside it.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
         let Ok(case) = cases::find(&study.case) else {
             return Vec::new();
@@ -94,7 +94,7 @@ impl Prices {
         priced.filter_map(of_metric).collect()
     }
 
-    /// Of curves of an error, and the runs that they are of.
+    /// Prices from the curves of an error, and the runs behind them.
     fn over(curves: &[&Convergence], quantity: &Quantity, runs: &[Record]) -> Option<Self> {
         let mut schemes = BTreeMap::<Scheme, Vec<&Convergence>>::new();
         for &curve in curves {
@@ -144,7 +144,7 @@ impl Prices {
         self.rows.iter().any(|row| row.scheme.remedy() == remedy)
     }
 
-    /// What a scheme costs, if it was run.
+    /// Price with a scheme, if it was run.
     pub(super) fn of_scheme(&self, scheme: Scheme) -> Option<&Price> {
         self.rows.iter().find(|row| row.scheme == scheme)
     }

@@ -23,7 +23,7 @@ struct Problem {
     /// Parameters changed from the case's own.
     set: &'static [&'static str],
     schemes: (BasisName, RemedyName),
-    /// What the errors are equal in: what it is called, the metric.
+    /// Error in which the runs are equal: name, metric.
     motion: (&'static str, &'static str),
     pressure: fn(&Record) -> f64,
 }
@@ -206,7 +206,7 @@ mod tests {
             run(still, "h1", &[], 0.05, 2.0),
             run(still, "h1", &["load_steps=1"], -0.054, 0.5),
             run(still, "h0.5", &[], 0.02, 8.0),
-            // Of another problem.
+            // A run of another problem.
             run(still, "h1", &["load=10"], 0.01, 0.01),
         ];
         let (sheet, told, advice) = table(&runs.each_ref());

@@ -1,4 +1,4 @@
-//! What is kept of runs: a row each, from a record and back.
+//! Kept results: a row per run, from a record and back.
 
 use crate::cases;
 use crate::error::Error;
@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// How the status of a run that broke down begins; the time follows.
 const BROKE: &str = "failed at ";
-/// What stands after the time, before the kind of its error.
+/// Separator between the time and the kind of an error.
 const AFTER: &str = " s: ";
 
 /// A run of a night.
@@ -171,7 +171,7 @@ impl Row {
         some.map(verdict).collect()
     }
 
-    /// What tells it from other rows.
+    /// Key of the row.
     pub(super) fn run(&self) -> [&str; 4] {
         [&self.case, &self.scheme, &self.level, &self.set]
     }

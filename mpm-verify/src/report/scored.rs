@@ -82,7 +82,7 @@ fn table(scored: &Scored, ours: &Ours) -> Sheet {
     Sheet::new(head).with(std::iter::once(own).chain(others))
 }
 
-/// What the result is of: code, scheme, case, level, parameters.
+/// Title of the result: code, scheme, case, level, parameters.
 fn title(scored: &Scored) -> String {
     let code = &scored.manifest.code;
     let version = code.version.as_ref().map(|v| format!(" {}", v.0));
@@ -98,7 +98,7 @@ fn title(scored: &Scored) -> String {
     )
 }
 
-/// What is not there, and what is not asked for.
+/// Columns that are missing, and columns that the case does not use.
 fn notes(scored: &Scored) -> Vec<String> {
     let name = |c: &Asked| format!("{} of the {}", c.header(), c.part.name());
     let missing: Vec<String> = scored.missing.iter().map(name).collect();

@@ -30,10 +30,10 @@ const PLACE: &str = "docs/pictures";
 /// Errors that the pages' tables tell of: five rows of panels would be too many.
 const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
-/// What a picture is drawn from.
+/// Source of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
-    /// What is kept of nights: a row a run.
+    /// Kept rows of nights: a row per run.
     Rows,
     /// The bench.
     Bench,
@@ -44,7 +44,7 @@ enum Source {
 use Source::{Bench, Rows, Runs};
 use Tier::{Nightly, Pr};
 
-/// Folder, which is a case's but for the bench, and file, both of the report and of the pages; charts are SVG.
+/// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG.
 const SHOWN: [(&str, &str, Source); 25] = [
     ("bench", "scaling.svg", Bench),
     ("cantilever", "beams.png", Runs(Nightly)),

@@ -1,4 +1,4 @@
-//! What the errors of some problems cost, by explicit steps and by implicit ones of several lengths.
+//! Cost of the errors of some problems, by explicit steps and by implicit ones of several lengths.
 
 use crate::draw::{Dash, Marker, Series};
 use crate::error::Error;

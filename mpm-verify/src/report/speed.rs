@@ -16,7 +16,7 @@ use std::path::Path;
 /// comparison.
 const STANDARD: RemedyName = RemedyName::None;
 const OURS: RemedyName = RemedyName::FbarConsistent;
-/// Of fewer motions a median says nothing.
+/// Least number of motions for a meaningful median.
 const FEW: usize = 3;
 /// Name of the picture, and of the table on pages.
 pub(super) const NAME: &str = "speed-against-error";
@@ -111,7 +111,7 @@ impl Speed {
         };
         format!(
             "Take F̄ ({OURS}) for the motion in: {motion}; for the pressure in: {stress}. There it is cheaper than \
-             standard MPM for the same error, or alone in reaching it. {dearer}Of F̄ take {}, of standard MPM {}. {} {} \
+             standard MPM for the same error, or alone in reaching it. {dearer}Best basis of F̄: {}; of standard MPM: {}. {} {} \
              The other F̄ are there for comparison: they creep or make energy.",
             self.basis(OURS),
             self.basis(STANDARD),
@@ -163,7 +163,7 @@ impl Speed {
     }
 }
 
-/// What F̄ costs over what standard MPM costs, if both have been run and one reaches the target.
+/// Ratio of the cost of F̄ to that of standard MPM, if both have been run and one reaches the target.
 fn ratio(prices: &Prices) -> Option<Ratio> {
     if !(prices.has(OURS) && prices.has(STANDARD)) {
         return None;

@@ -47,7 +47,7 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
 pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String, Error> {
     let summary = Summary::new("", studies);
     let mut document = Document::new("Verification, all runs that are kept");
-    // Of its checks a row counts those alone that judge.
+    // A row counts only checks that judge.
     document.paragraph(lines(&summary.counts.to_string(), 2));
     document.paragraph(Text::marked("The map of schemes and cases: `docs/hard-cases.md`."));
     body(&mut document, &summary, &Speed::of(&summary.cases), nights)?;
@@ -98,7 +98,7 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
     Ok(())
 }
 
-/// What made the runs, case by case.
+/// Programs that made the runs, case by case.
 pub(super) fn programs(summary: &Summary) -> Sheet {
     let row = |study: &CaseStudy| {
         let first = [study.case.clone(), study.records.len().to_string()];

@@ -12,31 +12,31 @@ use crate::scheme::{NameError, Scheme};
 /// Colour of what is predicted.
 const PREDICTION: usize = 7;
 
-/// What a panel has on its abscissa.
+/// Abscissa of a panel.
 #[derive(Clone, Copy)]
 enum Over {
     /// The size of cells.
     CellSize,
     /// A parameter, at one level: its name, what it is called, the level.
     Parameter(&'static str, &'static str, &'static str),
-    /// What the case predicts of the ordinate, in runs of all parameters.
+    /// Prediction of the ordinate by the case, in runs of all parameters.
     Prediction(&'static str),
 }
 
 use Over::{CellSize, Parameter, Prediction};
 
-/// What one case measures.
+/// Curve of one case.
 #[derive(Clone, Copy)]
 struct Plot {
     case: &'static str,
     schemes: &'static [&'static str],
-    /// What else is changed, where it is not what the convergence of the case has.
+    /// Other changed parameters, if they differ from those of the convergence of the case.
     set: Option<&'static [&'static str]>,
     over: Over,
     metric: &'static str,
     label: &'static str,
     linear: bool,
-    /// What the metric should be.
+    /// Exact value of the metric.
     exact: Option<f64>,
 }
 

@@ -14,7 +14,7 @@ const BEGIN: &str = "<!--=";
 const CLOSE: &str = "-->";
 const END: &str = "<!--/-->";
 
-/// What fills numbers: the rows that are kept, as records.
+/// Source of the numbers on pages: the kept rows, as records.
 pub(super) struct Values(Vec<(String, Record)>);
 
 impl Values {
@@ -58,7 +58,7 @@ impl Values {
         Ok(format.text(value))
     }
 
-    /// A number of a run, or why there is none.
+    /// A number of a run, or the reason for its absence.
     fn value(&self, of: &str) -> Result<f64, &'static str> {
         let (run, metric) = of.rsplit_once(' ').ok_or("a run and a metric are wanted")?;
         let run = self.0.iter().find(|(known, _)| known == run);

@@ -45,7 +45,7 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
     Table { class: "", head: run.into_iter().chain(head).collect(), rows }
 }
 
-/// What differs from the goldens, run by run.
+/// Differences from the goldens, run by run.
 pub(super) fn drift(summary: &Summary) -> Sheet {
     let records = summary.cases.iter().flat_map(|s| &s.records);
     let rows = records.flat_map(|record| {

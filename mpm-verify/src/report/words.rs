@@ -8,7 +8,7 @@ use crate::study::judge::{broke_as_known, outcome_of_run};
 use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::{Kind, Outcome, Verdict};
 
-/// What made the runs of a case: the program, the night and the commit, as far as they are known.
+/// Origin of the runs of a case: the program, the night and the commit, as far as they are known.
 pub(super) fn made_by(study: &CaseStudy) -> [String; 3] {
     let program = study.program().map(|v| format!("mpm-verify {}, source {}", v.mpm_verify, v.source));
     let night = study.night.as_ref();
@@ -102,7 +102,7 @@ pub(super) fn sentence(record: &Record) -> String {
     format!("{}: {why}", outcome(found))
 }
 
-/// What a check demands of a value, and the value.
+/// Demand of a check on a value, and the value.
 pub(super) fn demand(v: &Verdict) -> String {
     let value = number(v.value);
     match (v.value, v.reference, v.tolerance) {
@@ -120,7 +120,7 @@ pub(super) fn demand(v: &Verdict) -> String {
     }
 }
 
-/// A number with five digits, very small and very large ones as powers of ten with three; a dash where there is none.
+/// A number with five digits, very small and very large ones as powers of ten with three; a dash without a number.
 pub(super) fn number(value: Option<f64>) -> String {
     match value {
         None => "–".to_owned(),

@@ -77,7 +77,7 @@ pub enum Refusal {
     /// Sound bytes that mean nothing.
     #[error("can't be read: {0}")]
     Content(String),
-    /// Of another case, scheme, level or twin.
+    /// Another case, scheme, level or twin.
     #[error("of another run: {found}, not {asked}")]
     Run {
         /// The run there.
@@ -85,7 +85,7 @@ pub enum Refusal {
         /// The run asked for.
         asked: String,
     },
-    /// Of the same run at another value of a parameter.
+    /// The same run at another value of a parameter.
     #[error("of other parameters: {name} = {found}, not {asked}")]
     Parameter {
         /// The parameter.
@@ -95,7 +95,7 @@ pub enum Refusal {
         /// Its value asked for.
         asked: String,
     },
-    /// Of other sources.
+    /// Other sources.
     #[error("of another program: source {found}, not {here}")]
     Program {
         /// Fingerprint there.
@@ -106,14 +106,14 @@ pub enum Refusal {
     /// The series is not the one that the checkpoint was written beside.
     #[error("{} is not the series that it was written with", crate::run::series::FILE)]
     Series,
-    /// What stands beside a record is not what the run wrote.
+    /// A file beside the record differs from the one the run wrote.
     #[error("{name} is {found}, not the {recorded} that the run has written")]
     File {
         /// The file.
         name: String,
-        /// What is there.
+        /// Mark of the present file.
         found: String,
-        /// What was written.
+        /// Mark of the file as written.
         recorded: String,
     },
     /// The job is not one of this memory.
@@ -139,7 +139,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// Of a run by this program.
+    /// Identity of a run by this program.
     #[must_use]
     pub fn of(case: &Case, spec: &RunSpec, parameters: &Parameters) -> Self {
         Self {
@@ -149,7 +149,7 @@ impl Identity {
         }
     }
 
-    /// Of the run that left a record.
+    /// Identity of the run that left a record.
     #[must_use]
     pub fn of_record(record: &Record) -> Self {
         Self {
@@ -162,7 +162,7 @@ impl Identity {
     /// Checks that what was found is of this run.
     ///
     /// # Errors
-    /// What it differs in first: run, parameters, program.
+    /// The first difference: run, parameters, program.
     pub fn require(&self, found: &Self) -> Result<(), Refusal> {
         if found.run != self.run {
             return Err(Refusal::Run { found: found.run.clone(), asked: self.run.clone() });
@@ -190,12 +190,12 @@ pub struct Checkpoint {
     pub series: Mark,
     /// Time taken.
     pub time: Timing,
-    /// What the job remembers.
+    /// Memory of the job.
     pub memory: Saved,
 }
 
 impl Checkpoint {
-    /// Reads the checkpoint in a folder; `None` if there is none.
+    /// Reads the checkpoint in a folder; `None` for a folder without one.
     ///
     /// # Errors
     /// It is truncated, damaged, of another format, run or program, of other parameters, or can't be read.
@@ -246,7 +246,7 @@ impl Checkpoint {
     }
 }
 
-/// What follows the checksum, if that is right.
+/// The content after the checksum, if that is right.
 fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
     let Some(rest) = bytes.strip_prefix(&MAGIC) else {
         return Err(Refusal::NotACheckpoint);
@@ -289,7 +289,7 @@ pub struct Keeper {
 }
 
 impl Keeper {
-    /// Of a run in `folder` that begins, or goes on, now.
+    /// Writer of checkpoints for a run in `folder` that begins, or resumes, now.
     #[must_use]
     pub fn new(folder: &Path, identity: Identity, every: Duration) -> Self {
         Self { folder: folder.to_path_buf(), identity, every, last: Instant::now() }

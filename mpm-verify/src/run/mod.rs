@@ -168,7 +168,7 @@ impl Clock {
     }
 }
 
-/// What a run writes while it goes on.
+/// Files of a run in progress.
 struct Journal {
     folder: PathBuf,
     series: Series,

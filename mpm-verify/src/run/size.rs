@@ -1,5 +1,4 @@
-//! What a run takes, told before it starts: from the same scene with coarser cells, so that one that the machine can't
-//! hold is never built.
+//! Memory estimate before a run, extrapolated from coarser grids; a scene that does not fit is never built.
 
 use crate::case::Case;
 use crate::error::Error;
@@ -23,7 +22,7 @@ pub const GIBIBYTE: f64 = 1024.0 * MEBIBYTE;
 /// Where Linux tells what memory is to be had.
 const MEMORY: &str = "/proc/meminfo";
 
-/// What a scene takes: exactly, or worked out.
+/// Size of a scene: exact, or extrapolated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
     /// Particles.
@@ -37,7 +36,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// Of the scene of a run.
+    /// Size of the scene of a run.
     ///
     /// # Errors
     /// The parameters make no scene.
@@ -76,7 +75,7 @@ impl Size {
         Self::built(case, spec, parameters).map(|(size, _)| size)
     }
 
-    /// Of a scene that is built, with its dimension.
+    /// Size of a built scene, with its dimension.
     fn built(case: &Case, spec: &RunSpec, parameters: &Parameters) -> Result<(Self, f64), Error> {
         let mut begun = None;
         let counted = allocation_counter::measure(|| begun = Some((case.begin)(spec, parameters)));
@@ -101,7 +100,7 @@ impl Size {
         }
     }
 
-    /// Checks that a scene of this size can be held, in so many bytes if it is known how many there are.
+    /// Checks that a scene of this size fits in `memory` (bytes), if that is known.
     ///
     /// # Errors
     /// It can't.
@@ -118,7 +117,7 @@ impl Size {
     }
 }
 
-/// Checks that memory of so many bytes holds as many of the largest of these scenes as run side by side.
+/// Checks that `memory` (bytes) holds the largest of these scenes, as many as run side by side.
 ///
 /// # Errors
 /// It does not.
@@ -209,7 +208,7 @@ mod tests {
         }
     }
 
-    /// What is worked out from a coarser scene is what the scene itself takes.
+    /// An extrapolated size equals that of the scene itself.
     #[test]
     fn a_size_that_is_worked_out_is_that_of_the_scene() {
         let case = cases::find("dam-break").unwrap();

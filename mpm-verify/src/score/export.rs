@@ -1,4 +1,4 @@
-//! What another code needs to solve a case: particles, parameters, reference, and a form to fill in.
+//! Input of a case for another code: particles, parameters, reference, and a form to fill in.
 
 use super::manifest::{FILE, SCHEMA};
 use crate::case::Case;
@@ -112,8 +112,8 @@ impl<'a> Form<'a> {
     }
 }
 
-/// What the checks of the case demand of another code: those of a record whose metrics are all zero, of which nothing but
-/// the demand is taken.
+/// Demands of the case's checks on another code: those on a record whose metrics are all zero, of which only the demand
+/// is used.
 fn demands<'a>(
     case: &Case,
     foreign: &'a Foreign,
@@ -148,7 +148,7 @@ fn readme(
     let _ = write!(
         t,
         "\nCells of {} m. All numbers are in SI units; forces and masses are per metre of depth, of section in one dimension. \
-         Of the parameters that are named above:\n\n",
+         Values of the parameters named above:\n\n",
         spec.level.h
     );
     let named = |p: &&Parameter| foreign.setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));

@@ -82,7 +82,7 @@ pub struct Code {
     pub url: Option<Line>,
 }
 
-/// What a run took, as far as it is known.
+/// Cost of a run, as far as it is known.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Cost {
@@ -131,7 +131,7 @@ impl<'de> Visitor<'de> for Assignments {
     }
 }
 
-/// What a code says of its result.
+/// Statements of a code on its result.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -157,7 +157,7 @@ pub struct Manifest {
     pub series: Option<FileName>,
     /// Time step (s), if it has one.
     pub time_step_s: Option<Positive>,
-    /// What the run took.
+    /// Cost of the run.
     #[serde(default)]
     pub cost: Cost,
 }

@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 
 /// A result of another code, judged.
 pub struct Scored {
-    /// What it says of itself.
+    /// Manifest of the result.
     pub manifest: Manifest,
     /// The case.
     pub case: &'static Case,

@@ -30,7 +30,7 @@ impl Answer {
         Self { folder, files }
     }
 
-    /// Of the column: the reference for the series.
+    /// Result for the column: the reference for the series.
     fn of_column() -> Self {
         let result = Self::exported("consolidation", "n8", &["load=0.3"]);
         fs::copy(result.path(CURVE), result.path("series.csv")).unwrap();
@@ -100,7 +100,7 @@ fn the_reference_told_as_a_result_is_right() {
     assert_eq!(record.set, ["load=0.3"]);
     assert_eq!((&*record.case, &*record.level), ("consolidation", "n8"));
     assert_eq!(scored.manifest.code.name.0, "my code");
-    // Of what is not said nothing is made up.
+    // Missing statements stay missing.
     let silent = Answer::of_column().score().unwrap().record;
     assert!(silent.time.cpu_s.is_nan() && silent.time.wall_s.is_nan());
     assert!(silent.discretisation.dt.is_nan() && silent.work.steps == 0);
@@ -124,7 +124,7 @@ fn a_wrong_column_fails_and_without_it_nothing_is_judged() {
     assert!(!without.record.metrics.contains_key("settlement_error"));
 }
 
-/// What can't be measured is no number, and doesn't pass.
+/// A metric that can't be measured is not a number, and fails.
 #[test]
 fn a_series_that_ends_early_fails() {
     let result = Answer::of_column();
@@ -182,7 +182,7 @@ fn what_a_manifest_names_is_refused_by_its_key() {
         let said = result.score().map(|_| ()).unwrap_err().to_string();
         assert!(said.contains(named), "{said}");
     }
-    // A table that the case asks nothing of is none.
+    // A table that the case does not ask for is ignored.
     let result = Answer::of_column();
     result.say("particles", json!("none.csv"));
     assert!(result.score().is_ok());

@@ -34,7 +34,7 @@ const KINDS: [Kind; 10] = [
     ("UInt8", 1, |b| f64::from(b[0])),
 ];
 
-/// What the head of a file says of all arrays.
+/// Layout of all arrays, from the head of a file.
 #[derive(Default)]
 struct Layout {
     points: Option<usize>,
@@ -108,8 +108,8 @@ fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
     Some(found.value.into_owned())
 }
 
-/// Points and scalar point data of a grid. An array's numbers are its own text: elements inside it, as VTK's ranges of
-/// vectors are, have text of theirs. So many elements are open at its end, or it was cut.
+/// Points and scalar point data of a grid. An array's numbers are its own text: elements inside it, such as VTK's
+/// ranges of vectors, have text of theirs. `open` elements are open at its end, or it was cut.
 fn described(head: &str, open: usize) -> Result<(Layout, Vec<Array>), String> {
     let mut reader = Reader::from_str(head);
     let (mut layout, mut arrays) = (Layout::default(), Vec::<Array>::new());
@@ -202,7 +202,7 @@ impl Array {
         }
     }
 
-    /// So many numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
+    /// Unpacks `count` numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
     fn unpack(&self, layout: &Layout, count: usize, from: &mut impl Read) -> Result<Vec<f64>, String> {
         let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
         let (_, size, value) = known.ok_or_else(|| format!("type {:?}", self.kind))?;
@@ -240,7 +240,7 @@ impl Array {
 }
 
 impl Layout {
-    /// What the outermost element says.
+    /// Reads the outermost element.
     fn read_file(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
         let is = |name: &str, value: &str| attribute(element, name).is_some_and(|v| v == value);
         if !is("type", "UnstructuredGrid") {
@@ -256,7 +256,7 @@ impl Layout {
         }
     }
 
-    /// What the one piece says.
+    /// Reads the only piece.
     fn read_piece(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
         if self.points.is_some() {
             return Err("more than one piece".to_owned());
@@ -289,7 +289,7 @@ impl Layout {
     }
 }
 
-/// Bytes written in base64, in pieces that are each filled up; ends at what is none.
+/// Bytes written in base64, in pieces that are each padded; ends at the first other byte.
 struct Base64<'a> {
     text: std::slice::Iter<'a, u8>,
     /// Bytes that are decoded and not taken, the next one last.

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::path::Path;
 
-/// What tells a kept row's run, and what made it; the row has more columns.
+/// Key of a kept row's run, and its program; the row has more columns.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
 struct Row {
     case: String,
@@ -20,7 +20,7 @@ struct Row {
     program: String,
 }
 
-/// What is known of the planned runs of a case.
+/// Kept results of the planned runs of a case.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 struct Known {
     planned: usize,
@@ -41,7 +41,8 @@ pub struct Completeness {
 }
 
 impl Completeness {
-    /// Of `plan` against the rows of the file `results`; those of other programs than `program` are counted apart.
+    /// Completeness of `plan` against the rows of the file `results`; rows of other programs than `program` are counted
+    /// apart.
     ///
     /// # Errors
     /// The file is missing or damaged.

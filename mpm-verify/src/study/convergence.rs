@@ -44,9 +44,9 @@ pub struct Convergence {
     pub is_error: bool,
     /// Coarsest first.
     pub points: Vec<Point>,
-    /// Of an error: the order by least squares.
+    /// Order of an error, by least squares.
     pub order: Option<Order>,
-    /// Of a value without a reference: Richardson's extrapolation, in the asymptotic range.
+    /// Richardson's extrapolation of a value without a reference, in the asymptotic range.
     pub extrapolation: Option<Richardson>,
     /// Why there is neither.
     pub remark: Option<String>,
@@ -89,7 +89,7 @@ fn ladders<'a>(records: impl Iterator<Item = &'a Record>) -> Ladders<'a> {
     ladders
 }
 
-/// What the levels of one problem have in common, and a slice has not with the whole: the name but for the number at its end.
+/// Common name of the levels of one problem, and not of a slice and the whole: the name without the number at its end.
 fn stem(level: &str) -> &str {
     level.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.')
 }

@@ -1,4 +1,4 @@
-//! What runs have left in their folders.
+//! Results of runs in their folders.
 
 use crate::case::Case;
 use crate::error::Error;

@@ -23,7 +23,7 @@ pub struct Gathered {
     tier: String,
     studies: Vec<CaseStudy>,
     folders: BTreeMap<String, PathBuf>,
-    /// What keeps the runs from being those of a tier.
+    /// Reason why the runs are not those of a tier.
     gap: Option<String>,
 }
 
@@ -40,7 +40,7 @@ impl Gathered {
         }
     }
 
-    /// What keeps the runs from being those of their tier, if anything does: such runs are shown, and pass nothing.
+    /// Reason why the runs are not those of their tier, if there is one: such runs are shown, and pass nothing.
     #[must_use]
     pub fn gap(&self) -> Option<&str> {
         self.gap.as_deref()

@@ -1,4 +1,4 @@
-//! What a folder of runs is to hold, and which share of it.
+//! Plan of a folder of runs, and the share of it to run.
 
 use crate::case::{Case, Tier, find_level};
 use crate::cases;
@@ -25,7 +25,7 @@ const MAX_SHARDS: usize = 10_000;
 pub struct Shard {
     /// Which.
     pub index: usize,
-    /// Of how many.
+    /// Number of shards.
     pub count: usize,
 }
 
@@ -149,8 +149,8 @@ impl Plan {
         self.tier == other.tier && self.shard.count == other.shard.count && self.runs == other.runs
     }
 
-    /// What tells it from the plan of this program for its tier and its cases, if anything does: such a plan is not that of
-    /// the tier that it names.
+    /// Difference from the plan of this program for its tier and its cases, if there is one: such a plan is not that of
+    /// the tier it names.
     ///
     /// # Errors
     /// A tier or case that is not known.
@@ -202,7 +202,7 @@ impl Plan {
         Ok(plan)
     }
 
-    /// What must hold of a plan that was read.
+    /// Checks the invariants of a plan that was read.
     fn check(&self) -> Result<(), String> {
         let Shard { index, count } = self.shard;
         if !(1..=MAX_SHARDS).contains(&count) || !(1..=count).contains(&index) {

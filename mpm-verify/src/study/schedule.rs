@@ -67,7 +67,7 @@ pub fn make_runs(
     run_all(&tasks, saving, workers, listener)
 }
 
-/// Checks that memory of so many bytes holds the scenes of a plan's own shard, as many side by side as there are `workers`.
+/// Checks that `memory` (bytes) holds the scenes of a plan's own shard, as many side by side as there are `workers`.
 ///
 /// # Errors
 /// It does not, or a scene can't be built.
@@ -87,7 +87,7 @@ pub fn require_memory(plan: &Plan, memory: f64, workers: usize) -> Result<(), Er
 pub struct Task {
     /// The case.
     pub case: &'static Case,
-    /// What to run of it.
+    /// Run of the case.
     pub spec: RunSpec,
     /// Where its outputs go.
     pub folder: PathBuf,
@@ -170,7 +170,7 @@ fn side_by_side<T: Send>(order: Vec<usize>, workers: usize, work: impl Fn(usize)
     results.into_iter().map(|(_, result)| result).collect()
 }
 
-/// What a lock guards, whole even if another thread has panicked: queue and results change in one go.
+/// Guarded value of a lock, whole even if another thread has panicked: queue and results change in one go.
 fn unpoisoned<T>(guarded: Result<T, PoisonError<T>>) -> T {
     guarded.unwrap_or_else(PoisonError::into_inner)
 }

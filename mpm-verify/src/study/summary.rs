@@ -1,4 +1,4 @@
-//! What a verification found: the runs of each case, the verdicts on them and their counts.
+//! Result of a verification: the runs of each case, the verdicts on them and their counts.
 
 use super::convergence::Convergence;
 use super::judge::{broke_as_known, outcome_of_run};
@@ -127,7 +127,7 @@ impl fmt::Display for Counts {
     }
 }
 
-/// What a verification found.
+/// Result of a verification.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// Version of this format.
@@ -141,7 +141,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    /// Of cases that are judged, in the order of [`cases::all`].
+    /// Summary of judged cases, in the order of [`cases::all`].
     #[must_use]
     pub fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
         cases.sort_by_key(|study| cases::place(&study.case));

@@ -1,4 +1,4 @@
-//! Of laws, contacts and what a body is made of.
+//! Faults of laws, contacts and the body.
 
 use super::Fault;
 use crate::runs::*;

@@ -1,4 +1,4 @@
-//! Of the explicit step, and of bases, stages and averages that it shares with others.
+//! Faults of the explicit step, and of bases, stages and averages that it shares with others.
 
 use super::Fault;
 use crate::runs::*;

@@ -1,4 +1,4 @@
-//! Of the implicit solver, and of the one of solid and water.
+//! Faults of the implicit solver, and of the one of solid and water.
 
 use super::Fault;
 use crate::runs::*;

@@ -4,10 +4,11 @@
 use super::{Cells, Slab};
 use nalgebra::{DMatrix, DVector};
 
-/// The slab, of Poisson's ratio `ratio`, after each of so many steps of backward Euler's rule of duration `step` (T), by
-/// the equations of `cells`: of every particle σ_xx = 0, or of both of a cell together, the water of every node, and the
-/// force of the plate. With `apart` the particles of the outermost cell have strains of their own after the first step,
-/// as means of hats give them once the outer one's domain reaches into the cell beyond. NaN if there is no solution.
+/// The slab, of Poisson's ratio `ratio`, after each of `count` steps of duration `step` (T) of backward Euler's rule,
+/// by the equations of `cells`: σ_xx = 0 for every particle, or for both of a cell together, the water balance of every
+/// node, and the force of the plate. With `apart` the particles of the outermost cell have strains of their own after
+/// the first step, as means of hats give them once the outer one's domain reaches into the cell beyond. NaN if there is
+/// no solution.
 #[must_use]
 pub fn of_particles(ratio: f64, cells: Cells, apart: bool, step: f64, count: i32) -> Vec<Slab> {
     let n = cells.of_solid;
@@ -35,10 +36,11 @@ pub fn of_particles(ratio: f64, cells: Cells, apart: bool, step: f64, count: i32
     slabs
 }
 
-/// Of strains ε_x of the particles, two a cell, pressures of the nodes but the drained one, and ε_y: in G, a and F = G a.
+/// Equations in the particles' strains ε_x, two a cell, the pressures of all nodes but the drained one, and ε_y; G = a
+/// = F = 1.
 struct Equations {
     matrix: DMatrix<f64>,
-    /// What of the nodes' equations is of the step before.
+    /// Part of the nodes' equations that multiplies the previous step's values.
     storage: DMatrix<f64>,
 }
 

@@ -98,7 +98,7 @@ fn the_series_solves_the_equations() {
             let [lame, modulus] = [(1.0 - theta) / theta, (1.0 + theta) / theta];
             let across = modulus * slab.bulge - lame * slab.settlement - 0.5 * mean;
             let along = lame * slab.bulge - modulus * slab.settlement - 0.5 * mean;
-            // Of half the mean the rule of midpoints leaves h²/48 of the slope at the side, a few 1/√(πT).
+            // In half the mean the midpoint rule has an error of h²/48 times the slope at the side, a few 1/√(πT).
             let left = 4e-9 / t.sqrt() + 1e-12 * modulus;
             assert!(across.abs() < left, "{ratio} {t}: {across}");
             assert!((along + 1.0).abs() < left, "{ratio} {t}: {along}");
@@ -106,8 +106,8 @@ fn the_series_solves_the_equations() {
     }
 }
 
-/// P_T = L P − θ/(1 + θ) of its mean, on nodes from the middle to the side: from P = 1 to `t` in so many steps of the
-/// classical rule of Runge and Kutta.
+/// Solution of P_T = L P − θ/(1 + θ) × its mean, on nodes from the middle to the side: from P = 1 to the time `t` by
+/// the classical Runge-Kutta rule.
 fn integrated(ratio: f64, n: usize, t: f64) -> [f64; 2] {
     let theta = 1.0 - 2.0 * ratio;
     let h = 1.0 / n as f64;
@@ -121,7 +121,7 @@ fn integrated(ratio: f64, n: usize, t: f64) -> [f64; 2] {
             let before = if b == 0 { p[1] } else { p[b - 1] };
             bend[b] = (before - 2.0 * p[b] + p[b + 1]) / (h * h);
         }
-        // Of the node at the side what makes it stay at zero when the mean is taken off.
+        // Contribution of the node at the side that keeps its pressure zero when the mean is subtracted.
         let inner = h * (bend.iter().sum::<f64>() - 0.5 * bend[0]);
         let fall = theta * inner / (1.0 + theta * (1.0 - 0.5 * h));
         bend[..n].iter().map(|b| b - fall).chain([0.0]).collect()
@@ -260,7 +260,7 @@ fn strains_of_their_own_matter_less_on_finer_cells() {
     }
 }
 
-/// Of second order in the cells, exactly in time.
+/// Second-order convergence in the cells, exact in time.
 #[test]
 fn cells_tend_to_the_series() {
     let exact = Mandel::new(0.25, 0.1).at(0.1).centre;

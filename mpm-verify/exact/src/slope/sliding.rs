@@ -12,7 +12,7 @@
 //! ```
 //!
 //! The foot B moves with v, the wedge W with (v, v tan θ down), so that both jumps, along the vertical face above d and
-//! along the wedge's own base, are tangential. Of a stress field in equilibrium within the strength c, virtual power
+//! along the wedge's own base, are tangential. For a stress field in equilibrium within the strength c, virtual power
 //! demands
 //!
 //! γ A_W tan θ ≤ c [h tan θ + s (1 + tan² θ)] + T, T ≤ μ N and T ≤ c L, N = γ A_B + V, V ≤ c h
@@ -68,7 +68,7 @@ impl Slope {
         let foot = self.area(back) - self.area(toe);
         let inside = height * tan + width * (1.0 + tan * tan);
         let drives = gamma * wedge * tan;
-        // Of 1/F: c `inside` f + μ (γ A_B + c h f) f = `drives`, or with c L f for the friction.
+        // Equation in 1/F: c `inside` f + μ (γ A_B + c h f) f = `drives`, or with c L f for the friction.
         let [a, b] = [mu * c * height, c * inside + mu * gamma * foot];
         let slips = 2.0 * drives / (b + (b * b + 4.0 * a * drives).sqrt());
         let shears = drives / (c * (inside + back - toe));
@@ -106,7 +106,7 @@ mod tests {
         assert!((value - exact).abs() <= to, "{value} against {exact}");
     }
 
-    /// With the foot's back below the edge of the crest all is told by rectangles and triangles.
+    /// With the foot's back below the edge of the crest all areas are rectangles and triangles.
     #[test]
     fn a_foot_as_long_as_the_face_slides_by_a_quadratic() {
         let (mu, tan) = (0.3, 0.8_f64);

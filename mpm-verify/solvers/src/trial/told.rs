@@ -1,4 +1,4 @@
-//! What is told of a simulation: all that can be asked of it, by dimension.
+//! State of a simulation as columns: every quantity it can give, by dimension.
 
 use mpm_core::{Axis, Field, Frame, Grid, Law, Part, Particles, Reaction, Scene, Simulation};
 
@@ -17,7 +17,7 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
-/// What is natural in a scene, as its own frame has it.
+/// Natural scales of a scene, in its own frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scales {
     /// ρ₀ c² (Pa) of the fastest wave at the start.
@@ -35,7 +35,7 @@ pub struct Scales {
 }
 
 impl Scales {
-    /// Of what is `seen` of a scene from `frame`.
+    /// Scales of the scene `seen` from `frame`.
     pub(super) fn of<const D: usize, M: Law>(seen: &Scene<D, M>, frame: &Frame<D>) -> Self {
         let (stress, density) = (seen.body.wave_modulus(), seen.body.least_density());
         let barriers = seen.contacts.iter().map(|c| c.barrier().distance());
@@ -63,7 +63,7 @@ const FIELDS: [(&str, Field, i32); 5] = [
     ("porosity", Field::Porosity, 0),
 ];
 
-/// What is told of `run`, seen from `frame`, of a scene on `grid`.
+/// Columns of `run`, a scene on `grid` seen from `frame`.
 pub(super) fn columns<const D: usize>(run: &mut dyn Simulation<D>, frame: &Frame<D>, grid: &Grid<D>) -> Vec<Column> {
     let mut told = Told { frame, columns: Vec::new() };
     let d = D as i32;
@@ -133,7 +133,7 @@ struct Told<'a, const D: usize> {
 }
 
 impl<const D: usize> Told<'_, D> {
-    /// What the scene's own frame has.
+    /// Adds values that are already in the scene's own frame.
     fn push(&mut self, name: &str, unit: [i32; 3], summed: bool, values: Vec<f64>) {
         self.columns.push(Column { name: name.to_owned(), unit, summed, periods: vec![f64::INFINITY], values });
     }

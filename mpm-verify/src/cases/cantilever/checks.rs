@@ -91,13 +91,13 @@ pub(super) fn checks() -> Vec<Check> {
                 },
             )
             .because("finite elements of high order; their uncertainty and the error asked for at this cell size"),
-        Check::truth("stress", "likewise: σ_xx at six points near the clamp within h |∇σ_xx| of the finite elements")
+        Check::truth("stress", "stabilised quadratic splines, 16 particles a cell: σ_xx at six points near the clamp within h |∇σ_xx| of the finite elements")
             .when(|b| b.is_splines())
             .each([Demand::at_most(STRESS_ERROR, |_| f64::NAN).when(|b| b.stresses().is_err()).unless(|b| b.stresses().err())])
             .each(stress)
             .because("finite elements of degree 5, this project; tolerance: the point moved by a cell"),
-        Check::truth("falls", "likewise: the errors of u_y and of these stresses fall from level to level").study(falls),
-        Check::truth("steps", "likewise at h = 0.05 m: 5 to 160 load steps change u_y of the corner by less than its error").study(steps),
+        Check::truth("falls", "stabilised quadratic splines, 16 particles a cell: the errors of u_y and of these stresses fall from level to level").study(falls),
+        Check::truth("steps", "stabilised quadratic splines at h = 0.05 m: 5 to 160 load steps change u_y of the corner by less than its error").study(steps),
         Check::known_limit("q8-diverges", "serendipity elements: the error is above 2 % at every level and no smaller at the finest than at the coarsest").study(diverges),
         Check::known_limit("no-stabilisation", "without stabilisation and run to its end: the condition of the scaled stiffness is beyond 10¹²")
             .when(|b| b.is_unstable())

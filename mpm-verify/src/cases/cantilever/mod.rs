@@ -62,13 +62,13 @@ parameters! {
 metrics! { OWN:
     CORNER_UX = "corner_ux", "m",
         "u_x of the lower right corner, (1, 0) m, extrapolated linearly from the nearest particles";
-    CORNER_UY = "corner_uy", "m", "u_y of that corner, likewise";
+    CORNER_UY = "corner_uy", "m", "u_y of the lower right corner, by the same extrapolation";
     EDGE_MEAN_UX = "edge_mean_ux", "m",
         "u_x averaged over the right side, extrapolated from the last two columns of particles";
-    EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y, likewise";
+    EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y averaged over the right side, by the same extrapolation";
     CORNER_ERROR = "corner_error", "-",
         "distance of corner_uy from the reference over the reference";
-    EDGE_MEAN_ERROR = "edge_mean_error", "-", "of edge_mean_uy, likewise";
+    EDGE_MEAN_ERROR = "edge_mean_error", "-", "distance of edge_mean_uy from the reference over the reference";
     STRESS_MIN = "stress_min", "Pa", "least σ_xx at a particle: compression";
     STRESS_MAX = "stress_max", "Pa", "greatest σ_xx at a particle: tension";
     STRESS_ERROR = "stress_error", "-",
@@ -84,7 +84,7 @@ metrics! { OWN:
     ENERGY_RATIO = "energy_ratio", "-",
         "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); the tolerance, if it is less";
     REACTION_ERROR = "reaction_error", "-",
-        "distance of the clamp's reaction from the weight over the weight; likewise";
+        "distance of the clamp's reaction from the weight over the weight; the tolerance, if it is less";
     MASS = "mass", "kg/m", "mass of the beam";
 }
 
@@ -93,11 +93,11 @@ metrics! {
     STRESSES at [f64; 2]:
     [0.1, 0.05] => "stress_xx_0.1_0.05", "Pa",
         "σ_xx at the material point (0.1, 0.05) m, by a linear fit over the particles within h";
-    [0.1, 0.15] => "stress_xx_0.1_0.15", "Pa", "likewise at (0.1, 0.15) m";
-    [0.1, 0.25] => "stress_xx_0.1_0.25", "Pa", "likewise at (0.1, 0.25) m";
-    [0.2, 0.05] => "stress_xx_0.2_0.05", "Pa", "likewise at (0.2, 0.05) m";
-    [0.2, 0.15] => "stress_xx_0.2_0.15", "Pa", "likewise at (0.2, 0.15) m";
-    [0.2, 0.25] => "stress_xx_0.2_0.25", "Pa", "likewise at (0.2, 0.25) m";
+    [0.1, 0.15] => "stress_xx_0.1_0.15", "Pa", "σ_xx at the material point (0.1, 0.15) m, by the same fit";
+    [0.1, 0.25] => "stress_xx_0.1_0.25", "Pa", "σ_xx at the material point (0.1, 0.25) m, by the same fit";
+    [0.2, 0.05] => "stress_xx_0.2_0.05", "Pa", "σ_xx at the material point (0.2, 0.05) m, by the same fit";
+    [0.2, 0.15] => "stress_xx_0.2_0.15", "Pa", "σ_xx at the material point (0.2, 0.15) m, by the same fit";
+    [0.2, 0.25] => "stress_xx_0.2_0.25", "Pa", "σ_xx at the material point (0.2, 0.25) m, by the same fit";
 }
 
 pub(super) fn case() -> Case {

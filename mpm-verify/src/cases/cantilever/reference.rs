@@ -25,7 +25,7 @@ struct Solutions {
 /// Displacements (m).
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 pub(super) struct Solution {
-    /// Of the corner (1, 0).
+    /// Displacement of the corner (1, 0) m.
     pub(super) bottom_right: [f64; 2],
     /// Mean over the right side, if it was kept.
     pub(super) right_edge_mean: Option<[f64; 2]>,

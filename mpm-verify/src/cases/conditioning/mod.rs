@@ -40,13 +40,13 @@ parameters! {
 
 metrics! { ALL:
     COND_UU = "log10_cond_uu", "-", "log10 of the condition number of the displacement's matrix, largest over the places";
-    COND_UU_MEAN = "log10_cond_uu_mean", "-", "likewise, mean";
-    COND_UU_LEAST = "log10_cond_uu_least", "-", "likewise, least";
+    COND_UU_MEAN = "log10_cond_uu_mean", "-", "log10 of the condition number of the displacement's matrix, mean over the places";
+    COND_UU_LEAST = "log10_cond_uu_least", "-", "log10 of the condition number of the displacement's matrix, least over the places";
     COND_PP = "log10_cond_pp", "-", "log10 of the condition number of the pressure's matrix, largest over the places";
-    COND_PP_MEAN = "log10_cond_pp_mean", "-", "likewise, mean";
-    COND_PP_LEAST = "log10_cond_pp_least", "-", "likewise, least";
+    COND_PP_MEAN = "log10_cond_pp_mean", "-", "log10 of the condition number of the pressure's matrix, mean over the places";
+    COND_PP_LEAST = "log10_cond_pp_least", "-", "log10 of the condition number of the pressure's matrix, least over the places";
     COND = "log10_cond", "-", "log10 of the condition number of the whole matrix, largest over every fourth place";
-    COND_SCALED = "log10_cond_scaled", "-", "likewise, scaled to a diagonal of ones";
+    COND_SCALED = "log10_cond_scaled", "-", "log10 of the condition number of the whole matrix scaled to a diagonal of ones, largest over every fourth place";
     SOFTEST_UU = "softest_uu", "-", "least eigenvalue of the displacement's matrix over G, least over the places";
     SOFTEST_PP = "softest_pp", "-", "least eigenvalue of the pressure's matrix over its conductivity, least over the places";
     MIRROR_ERROR = "mirror_error", "-",

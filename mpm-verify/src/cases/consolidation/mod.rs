@@ -55,11 +55,11 @@ metrics! { ALL:
     SETTLEMENT_ERROR = "settlement_error", "-",
         "largest relative error of the settlement at the tabulated T from 0.1 on; none at a load that has no reference";
     SETTLEMENT_ERROR_STEPS = "settlement_error_steps", "-",
-        "likewise against the exact solution in space of the same backward Euler steps: the error of space alone";
+        "largest relative error of the settlement against the exact solution in space of the same backward Euler steps: the error of space alone";
     BASE_PRESSURE_ERROR = "base_pressure_error", "-",
         "largest error there of the pressure at the base, over the load";
     BASE_PRESSURE_ERROR_STEPS = "base_pressure_error_steps", "-",
-        "likewise against the exact solution in space of the same steps";
+        "largest error of the pressure at the base, over the load, against the exact solution in space of the same steps";
     SETTLEMENT_EARLY = "settlement_0.1", "-", "settlement over H at T = 0.1";
     SETTLEMENT_END = "settlement_end", "-", "settlement over H at T = 2";
     MASS_ERROR = "mass_error", "-",
@@ -82,7 +82,7 @@ pub(super) fn case() -> Case {
             "The same of backward Euler's steps: the error of space by itself.".to_owned(),
         ],
         limits: &[
-            "One dimension; the improved Hencky law is ours of what is told of it.",
+            "One dimension; the improved Hencky law is our own, from its published description.",
             "References at loads of 0.003, 0.3 and 1 M₀ alone.",
             "Linear functions break down at large strain: what they would come to is not known.",
         ],

@@ -37,8 +37,8 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
     TABLE.lines().skip(1).filter_map(row).collect()
 });
 
-/// The solution of a load (over M₀) at its tabulated times from T = 0.1 on: the exact one, or in space alone, of backward Euler's
-/// steps, `steps` of which make one of the 125. Empty where there is none.
+/// The solution of a load (over M₀) at its tabulated times from T = 0.1 on: the exact one, or exact in space alone for
+/// backward Euler's steps, `steps` to each of the 125. Empty for a load without a reference.
 pub(super) fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
     let refine = steps.unwrap_or(0.0);
     let own = |r: &&Row| r.load == load && r.refine == refine && r.at.t >= FROM;

@@ -123,7 +123,7 @@ fn sketch() -> Sketch {
     shapes.extend([0.125, 0.375, 0.625, 0.875].map(dot));
     shapes.push(Shape::note([0.5, 0.8], "noise"));
     shapes.push(Shape::length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"));
-    Sketch { shapes, description: "A periodic lattice of particles, six cells in a period, at rest but for noise." }
+    Sketch { shapes, description: "A periodic lattice of particles, six cells in a period, at rest except for noise." }
 }
 
 impl Setup<Step> {

@@ -25,7 +25,7 @@ const TRIALS: usize = 10;
 const NOISE: f64 = 1e-6;
 const STRAIN: f64 = 1e-8;
 const GROWN: f64 = 100.0;
-/// The share of its part of the noise that a single wave has at least, but for three chances in a hundred.
+/// Least share of its part of the noise that a single wave has, with a probability of 97 %.
 const SHARE: f64 = 0.02;
 /// Relative step of a derivative.
 const STEP: f64 = 1e-5;

@@ -12,7 +12,7 @@ const CELLS: usize = 12;
 const CELL: f64 = 5.0;
 /// Step of the second derivative, in cells.
 const NEARBY: f64 = 1e-6;
-/// What counts as zero of sums of a few weights.
+/// Threshold below which a sum of a few weights counts as zero.
 const ROUNDING: f64 = 1e-9;
 
 /// A lattice of particles, the same in every cell.
@@ -32,7 +32,7 @@ pub(super) struct Setting {
     pub(super) viscosity: f64,
 }
 
-/// What a particle sees along an axis of a wave on the nodes.
+/// Values of a nodal wave at a particle, along an axis.
 struct Seen {
     value: Complex<f64>,
     slope: Complex<f64>,
@@ -144,7 +144,7 @@ impl Setting {
                 filtered * Complex::from(sharp * sharp) + unseen
             }
         };
-        // Of λ + 2μ, the modulus of a change of volume in so many dimensions is λ + 2μ/D.
+        // From λ + 2μ follows the modulus of a change of volume in D dimensions, λ + 2μ/D.
         let part = 1.0 / dimension as f64;
         let bulk = self.axial - 2.0 * self.shear * (1.0 - part);
         let deviators = strains - &traces * Complex::from(part);
@@ -169,8 +169,8 @@ impl Setting {
         }
     }
 
-    /// The largest CFL number, zero if there is none, and the fastest growth per step and CFL number of a wave that a
-    /// mean stress feeds. Nothing where the analysis is not made: `fbar-recursive` in more than one dimension,
+    /// The largest CFL number (zero if every one is unstable) and the fastest growth per step and CFL number of a wave
+    /// fed by a mean stress. `None` where the analysis is not made: `fbar-recursive` in more than one dimension,
     /// `fbar-recursive` and `fbar-consistent` under a mean stress, a remedy with a viscosity.
     pub(super) fn predicted(&self) -> Option<[f64; 2]> {
         let dimension = self.places.len();
@@ -193,7 +193,7 @@ impl Setting {
             if symbol.stiffness > ROUNDING {
                 squared = squared.min(self.largest(&symbol) / symbol.stiffness);
             }
-            // Of small steps: (z − 1)² = −g Π̂.
+            // In the limit of small steps (z − 1)² = −g Π̂.
             fed = fed.max(-symbol.stiffness * symbol.kept);
         }
         let grows = fed > ROUNDING;

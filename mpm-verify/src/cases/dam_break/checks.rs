@@ -167,7 +167,7 @@ pub(super) fn checks() -> Vec<Check> {
         at_rest(Check::truth("base-reaction", "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage"))
             .within(BASE_REACTION_RATIO, |_| 1.0, |w| w.at_rest())
             .because("weight of the water"),
-        at_rest(Check::truth("gate-force", "none, fbar-rate, fbar-consistent: the force on the gate, likewise, is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"))
+        at_rest(Check::truth("gate-force", "none, fbar-rate, fbar-consistent: the mean force on the gate over the same time is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"))
             .within(GATE_FORCE, |w| w.gate_at_rest(), |w| w.at_rest() * w.gate_at_rest())
             .because("hydrostatics"),
         // Averages of averages diffuse the volume by h²/Δt: it takes an exact start and the case's own time step to see it.
@@ -195,7 +195,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let passes = passage(TANK - 2.0 * w.h);
                 w.front_bound() / passes.map_or(f64::NAN, |(_, speed)| speed)
             })
-            .because("inviscid front, likewise"),
+            .because("inviscid front; a grid resolves no tongue thinner than a cell"),
         Check::truth("front-speed", "all: the front is slower than 2 √(g H)")
             .at_most(FRONT_SPEED_MAX, |_| greatest_speed())
             .because("Ritter 1892"),

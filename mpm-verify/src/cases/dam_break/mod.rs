@@ -61,8 +61,8 @@ parameters! {
 metrics! { ALL:
     BASE_REACTION_RATIO = "base_reaction_ratio", "-",
         "force on the floor over the weight of the water, behind the gate: mean over three of the water's longest periods from the exact start, over 0.005 s after a gravity stage";
-    GATE_FORCE = "gate_force", "N/m", "force on the gate, likewise";
-    BACK_FORCE = "back_force", "N/m", "force on the back wall, likewise";
+    GATE_FORCE = "gate_force", "N/m", "force on the gate, mean over the same time as base_reaction_ratio";
+    BACK_FORCE = "back_force", "N/m", "force on the back wall, mean over the same time as base_reaction_ratio";
     BASE_PRESSURE = "base_pressure", "Pa",
         "pressure at the floor behind the gate, one step from the exact start or after the gravity stage, by a line through the particles of the lower half";
     PRESSURE_PROFILE_ERROR = "pressure_profile_error", "-",
@@ -80,7 +80,7 @@ metrics! { ALL:
         "highest particle within a cell of the back wall and half its spacing, at 0.4 s";
     ENERGY_RATIO = "energy_ratio", "-",
         "kinetic and potential energy and stress work at 0.4 s over those at the start";
-    ENERGY_RATIO_2S = "energy_ratio_2s", "-", "likewise at 2 s";
+    ENERGY_RATIO_2S = "energy_ratio_2s", "-", "kinetic and potential energy and stress work at 2 s over those at the start";
     ENERGY_GAIN = "energy_gain", "-", "largest growth of that energy in 0.005 s, over its start";
     ENERGY_EXCESS = "energy_excess", "-", "largest excess of it over its start, relative";
     MOTION_RATIO_2S = "motion_ratio_2s", "-", "kinetic and potential energy at 2 s over those at the start";
@@ -94,7 +94,7 @@ metrics! { ALL:
         "area under the highest particles at 0.4 s, in strips two particles wide";
     CENTRE_X_EARLY = "centre_x_0.4s", "m", "centre of mass at 0.4 s";
     CENTRE_X_MEAN = "centre_x_mean", "m", "centre of mass, mean over 2 s";
-    CENTRE_Y_MEAN = "centre_y_mean", "m", "its height, likewise";
+    CENTRE_Y_MEAN = "centre_y_mean", "m", "height of the centre of mass, mean over 2 s";
     WALL_IMPULSE = "wall_impulse", "N s/m", "impulse on the front wall in 2 s";
     JACOBIAN_MIN = "jacobian_min", "-", "least J of a particle at any time";
     JACOBIAN_MAX = "jacobian_max", "-", "greatest J of a particle at any time";

@@ -136,7 +136,7 @@ fn checks() -> Vec<Check> {
                 ROUNDING + left
             })
             .because("weights sum to one and their gradients to zero"),
-        Check::truth("no-energy-gain", "explicit but for musl, and midpoint: kinetic and stored energy are never more than at the start, explicit by more than what is stored times the CFL number")
+        Check::truth("no-energy-gain", "midpoint, and explicit without musl: kinetic and stored energy never exceed their start, explicit by more than the stored energy times the CFL number")
             .when(|b| b.rule() != Some(RuleName::Newmark) && b.transfer() != TransferName::Musl)
             .at_most(ENERGY_GAIN, |b| {
                 let offset = if b.is_implicit() { ROUNDING } else { b.cfl * b.metric(STORED_MOST) };

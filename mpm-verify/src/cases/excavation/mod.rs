@@ -77,14 +77,14 @@ parameters! {
 metrics! { ALL:
     FACTOR_UNCUT = "factor_uncut", "-",
         "factor of safety of the whole slope at the peak strength, by limit analysis: an upper bound";
-    FACTOR_CUT = "factor_cut", "-", "likewise of the slope whose toe is cut away";
-    FACTOR_CUT_RESIDUAL = "factor_cut_residual", "-", "likewise at the residual strength";
+    FACTOR_CUT = "factor_cut", "-", "factor of safety of the slope with its toe cut away, at the peak strength, by limit analysis: an upper bound";
+    FACTOR_CUT_RESIDUAL = "factor_cut_residual", "-", "factor of safety of the cut slope at the residual strength, by limit analysis: an upper bound";
     GRAVITY_CARRIED = "gravity_carried", "-",
         "share of gravity under which the whole slope has its last equilibrium";
     STANDS_UNCUT = "stands_uncut", "-",
         "1 if the whole slope comes to rest under full gravity and no particle moves by a tenth of the height in the last phase; 0 if one does; none where it still moves";
     STANDS_CUT = "stands_cut", "-",
-        "likewise of the cut slope, quasi-static or moving; none if it fails uncut";
+        "1 if the cut slope, quasi-static or moving, comes to rest by the criterion of the whole one; 0 if not; none if it fails uncut";
     FORCE_RATIO_UNCUT = "force_ratio_uncut", "-",
         "the paper's out-of-balance ratio, Eq. (37), of the equilibrium before the excavation";
     ENERGY_RATIO_UNCUT = "energy_ratio_uncut", "-",
@@ -97,7 +97,7 @@ metrics! { ALL:
         "base=friction: largest ratio of the base's tangential reaction to its normal one, over all rows";
     PLASTIC_STRAIN_UNCUT = "plastic_strain_uncut", "-",
         "largest equivalent plastic strain before the excavation";
-    PLASTIC_STRAIN_END = "plastic_strain_end", "-", "likewise at the end";
+    PLASTIC_STRAIN_END = "plastic_strain_end", "-", "largest equivalent plastic strain at the end";
     SOFTENED_END = "softened_end", "m²", "area whose strength is residual at the end";
     BAND_WIDTH = "band_width", "m", "that area over the length of the arc of limit analysis";
     HANDED_OVER = "handed_over", "-",

@@ -85,7 +85,7 @@ impl Setup<Footing> {
             })
     }
 
-    /// Why there is no limit load to compare with, if there is none.
+    /// Reason for the lack of a limit load to compare with, if it is lacking.
     fn no_limit(&self) -> Option<String> {
         let plastic = PLASTIC * self.strength_ratio();
         if 0.75 * self.penetration < plastic {
@@ -108,7 +108,7 @@ impl Setup<Footing> {
         self.is_free_of_locking() && !self.is_elastic() && self.shown_only().is_none()
     }
 
-    /// The same where another check says why there is none.
+    /// Whether a limit load is demanded and can be compared, so that no other check states the reason for its lack.
     fn reaches_limit(&self) -> bool {
         self.has_limit() && self.no_limit().is_none()
     }

@@ -86,7 +86,7 @@ impl LoadCurve<'_> {
         fit_line(&points).map_or(f64::NAN, |line| line.slope)
     }
 
-    /// What is measured of the force on the footing.
+    /// Metrics of the force on the footing.
     pub(super) fn metrics(&self) -> Vec<(Metric, f64)> {
         let force = self.mean(|r| self.on_plateau(r), |r| r.force);
         let most = self.rows.iter().map(|r| r.force).fold(0.0, f64::max);
@@ -120,7 +120,7 @@ impl LoadCurve<'_> {
 pub(super) struct Surface(Vec<(f64, f64)>);
 
 impl Surface {
-    /// Of particles that start at `reference` (m), `spacing` (m) apart, and move by `flow` (m).
+    /// Surface of particles that start at `reference` (m), `spacing` (m) apart, and move by `flow` (m).
     pub(super) fn new(reference: &[[f64; 2]], flow: &[[f64; 2]], spacing: f64) -> Self {
         let on_surface = |x: &[f64; 2]| x[1] > -0.75 * spacing;
         let mut surface: Vec<(f64, f64)> =
@@ -153,7 +153,7 @@ impl Surface {
         rises.iter().sum::<f64>() / rises.len() as f64 / self.sinking()
     }
 
-    /// What is measured of it.
+    /// Metrics of the surface.
     pub(super) fn metrics(&self, rough: bool) -> Vec<(Metric, f64)> {
         vec![(MECHANISM_WIDTH, self.mechanism_width(rough)), (HEAVE, self.heave())]
     }

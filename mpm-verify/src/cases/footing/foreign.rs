@@ -10,7 +10,8 @@ const START_X: Asked = Asked::particle("reference_x", "m", "x before anything mo
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
 const FLOW_X: Asked =
     Asked::particle("plateau_ux", "m", "displacement along x over the last quarter of the penetration");
-const FLOW_Y: Asked = Asked::particle("plateau_uy", "m", "along y, likewise");
+const FLOW_Y: Asked =
+    Asked::particle("plateau_uy", "m", "displacement along y over the last quarter of the penetration");
 const MEAN_STRESS: Asked =
     Asked::particle("mean_stress", "Pa", "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive");
 const PENETRATED: Asked = Asked::series("penetration", "-", "penetration over B");

@@ -37,7 +37,7 @@ parameters! {
         undrained_strength: f64 = real("Pa", "100", 1e-6, 1e12),
             "undrained shear strength s_u of plane strain: the ground yields at ‖s‖ = √2 s_u";
         domain_width: i32 = whole("B", "6", 2, 40), "width of the right half of the ground, in widths of the footing";
-        domain_depth: i32 = whole("B", "6", 1, 40), "depth of the ground, likewise";
+        domain_depth: i32 = whole("B", "6", 1, 40), "depth of the ground, in widths of the footing";
         penetration_rate: f64 = PENETRATION_RATE;
         penetration: f64 = real("B", "0.004", 1e-4, 0.1), "penetration at the end, in widths of the footing";
         ramp: f64 = real("s", "0.8", 1e-6, 1e3), "time over which the footing's speed rises from zero";
@@ -59,9 +59,9 @@ metrics! { OWN:
     NC_B = "nc_b", "-",
         "bearing capacity factor q/s_u with the pressure q = F/(B/2), mean over the last quarter of the penetration";
     NC_B_PLUS_H = "nc_b_plus_h", "-",
-        "likewise with q = F/((B + h)/2): a footing of held nodes on grid lines ends between a held and a free node";
+        "bearing capacity factor with q = F/((B + h)/2): a footing of held nodes on grid lines ends between a held and a free node";
     NC_EFFECTIVE = "nc_effective", "-",
-        "likewise with the width that the held nodes of the scheme act with: B for quadratic splines, whose nodes lie in the middle of cells, B + h for GIMP, B + h/2 for cubic ones";
+        "bearing capacity factor with the effective width of the held nodes: B for quadratic splines, whose nodes lie in the middle of cells, B + h for GIMP, B + h/2 for cubic ones";
     PRANDTL_ERROR = "prandtl_error", "-",
         "relative distance of nc_b from 2 + π: the error of the contact pressure";
     NC_PEAK = "nc_peak", "-", "largest q/s_u of the run, by B";
@@ -101,10 +101,10 @@ metrics! {
     MEAN_STRESSES at [f64; 2]:
     [0.25, -0.25] => "mean_stress_0.25_0.25", "-",
         "mean normal stress over s_u at the end at the material point 0.25 B from the axis and 0.25 B deep, by a linear fit over the particles within 2h";
-    [0.25, -0.5] => "mean_stress_0.25_0.5", "-", "likewise at 0.25 B from the axis and 0.5 B deep";
-    [0.75, -0.25] => "mean_stress_0.75_0.25", "-", "likewise at 0.75 B from the axis and 0.25 B deep";
-    [1.0, -0.25] => "mean_stress_1_0.25", "-", "likewise at 1 B from the axis and 0.25 B deep";
-    [0.25, -1.0] => "mean_stress_0.25_1", "-", "likewise at 0.25 B from the axis and 1 B deep";
+    [0.25, -0.5] => "mean_stress_0.25_0.5", "-", "mean normal stress over s_u at the end at the material point 0.25 B from the axis and 0.5 B deep";
+    [0.75, -0.25] => "mean_stress_0.75_0.25", "-", "mean normal stress over s_u at the end at the material point 0.75 B from the axis and 0.25 B deep";
+    [1.0, -0.25] => "mean_stress_1_0.25", "-", "mean normal stress over s_u at the end at the material point 1 B from the axis and 0.25 B deep";
+    [0.25, -1.0] => "mean_stress_0.25_1", "-", "mean normal stress over s_u at the end at the material point 0.25 B from the axis and 1 B deep";
 }
 
 pub(super) fn case() -> Case {

@@ -74,14 +74,14 @@ pub(super) struct MeanStress {
     pub(super) uncertainty: f64,
 }
 
-/// What a run is held against: pressures over the strength for F/(B/2).
+/// Reference curve of a run: pressures over the strength for F/(B/2).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
     /// Limit load.
     pub(super) limit: f64,
     /// (s/B, q/s_u).
     points: Vec<(f64, f64)>,
-    /// What it is.
+    /// Name of the curve.
     pub(super) name: String,
 }
 
@@ -129,7 +129,7 @@ fn close(a: f64, b: f64) -> bool {
 
 /// Which elements have a footing that acts as wide as that of a scheme.
 enum Elements {
-    /// Of vanishing size.
+    /// Elements of vanishing size.
     Vanishing,
     /// As large as the cells.
     OfCells,

@@ -68,21 +68,21 @@ metrics! { ALL:
     OVERBURDEN_ERROR = "overburden_error", "-",
         "rms over the particles within H/2 of the back wall of the vertical stress less the weight above, over γ H, then";
     CHECKERBOARD_AT_REST = "checkerboard_at_rest", "-", "rms of σ_m − Πσ_m over γ H, then";
-    CHECKERBOARD_2_5S = "checkerboard_2.5s", "-", "likewise 2.5 s after the reduction";
+    CHECKERBOARD_2_5S = "checkerboard_2.5s", "-", "rms of σ_m − Πσ_m over γ H, 2.5 s after the reduction";
     YIELDED_AT_REST = "yielded_at_rest", "-", "share of the particles that have yielded, then";
     SETTLEMENT_AT_REST = "settlement_at_rest", "m", "how far the crest's edge has sunk, then";
     RUNOUT_1S = "runout_1s", "m",
         "distance of the outermost particle, and half its spacing, from the first toe, 1 s after the reduction";
-    RUNOUT_2_5S = "runout_2.5s", "m", "likewise at 2.5 s";
-    RUNOUT_END = "runout_end", "m", "likewise at the end";
+    RUNOUT_2_5S = "runout_2.5s", "m", "distance of the outermost particle, and half its spacing, from the first toe, 2.5 s after the reduction";
+    RUNOUT_END = "runout_end", "m", "distance of the outermost particle, and half its spacing, from the first toe, at the end";
     BULK_RUNOUT_2_5S = "bulk_runout_2.5s", "m",
         "distance from the first toe beyond which a hundredth of the ground lies, at 2.5 s";
-    BULK_RUNOUT_END = "bulk_runout_end", "m", "likewise at the end";
+    BULK_RUNOUT_END = "bulk_runout_end", "m", "distance from the first toe beyond which a hundredth of the ground lies, at the end";
     SETTLEMENT_2_5S = "settlement_2.5s", "m", "how far the crest's edge has sunk at 2.5 s";
-    SETTLEMENT_END = "settlement_end", "m", "likewise at the end";
+    SETTLEMENT_END = "settlement_end", "m", "settlement of the crest's edge at the end";
     FAILED_SHARE_2_5S = "failed_share_2.5s", "-",
         "share of the ground that has moved by more than H/20 since the reduction, at 2.5 s";
-    FAILED_SHARE_END = "failed_share_end", "-", "likewise at the end";
+    FAILED_SHARE_END = "failed_share_end", "-", "share of the ground that has moved by more than H/20 since the reduction, at the end";
     FAILURE_TIME = "failure_time", "s", "when a hundredth of the ground has moved so far";
     RETROGRESSION_END = "retrogression_end", "m",
         "distance behind the crest's edge to which its surface has moved so far, at the end";
@@ -102,11 +102,11 @@ metrics! { ALL:
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     WIDTH_SPREAD_AT_REST = "width_spread_at_rest", "-",
         "largest range over the width of the displacement of what was in one place of the section, over the largest displacement, at the end of the gravity stage";
-    WIDTH_SPREAD_0_5S = "width_spread_0.5s", "-", "likewise 0.5 s after the reduction";
-    WIDTH_SPREAD_END = "width_spread_end", "-", "likewise at the end";
+    WIDTH_SPREAD_0_5S = "width_spread_0.5s", "-", "width_spread_at_rest, 0.5 s after the reduction instead";
+    WIDTH_SPREAD_END = "width_spread_end", "-", "width_spread_at_rest, at the end instead";
     OFF_PLANE_STRAIN_AT_REST = "off_plane_strain_at_rest", "-",
         "relative difference of the crest's settlement from that in plane strain, at the end of the gravity stage";
-    OFF_PLANE_STRAIN_0_5S = "off_plane_strain_0.5s", "-", "likewise 0.5 s after the reduction";
+    OFF_PLANE_STRAIN_0_5S = "off_plane_strain_0.5s", "-", "relative difference of the crest's settlement from that in plane strain, 0.5 s after the reduction";
     OFF_PLANE_STRAIN_END = "off_plane_strain_end", "m",
         "difference of the outermost particle from that in plane strain at the end";
 }

@@ -33,9 +33,9 @@ metrics! { ALL:
     CENTRE_PRESSURE_ERROR = "centre_pressure_error", "-",
         "largest distance, from T = 0.01 on, of the pressure in the middle from Mandel's, over the undrained one F/(2a)";
     CENTRE_PRESSURE_ERROR_SPACE = "centre_pressure_error_space", "-",
-        "likewise from the exact solution in space of the same backward Euler steps: the error of space alone";
+        "largest distance of the pressure in the middle from the exact solution in space of the same backward Euler steps: the error of space alone";
     CENTRE_PRESSURE_ERROR_TIME = "centre_pressure_error_time", "-",
-        "likewise from the exact solution in time of the difference equations of the same cells: the error of time alone";
+        "largest distance of the pressure in the middle from the exact solution in time of the difference equations of the same cells: the error of time alone";
     EQUATIONS_DISTANCE = "equations_distance", "-",
         "largest distance of that pressure, the settlement and the bulge from the solution of the difference equations, over all steps";
     PEAK = "peak", "-", "largest pressure in the middle over F/(2a)";
@@ -43,7 +43,7 @@ metrics! { ALL:
     SETTLEMENT_ERROR = "settlement_error", "-",
         "largest distance, from T = 0.01 on, of a plate's path from Mandel's, over F b/(G a)";
     BULGE_ERROR = "bulge_error", "-",
-        "likewise of a side's mean path outwards, by the change of the volume, over F/G";
+        "largest distance, from T = 0.01 on, of a side's mean path outwards from Mandel's, by the change of the volume, over F/G";
     SUPPORT_ERROR = "support_error", "-",
         "largest distance of the force on the plane of symmetry below from that on the plate, over the latter; 10⁻⁹ if less";
     MASS_ERROR = "mass_error", "-",
@@ -140,19 +140,19 @@ fn checks() -> Vec<Check> {
     const SERIES_AND_EQUATIONS: &str = "Mandel's series, and what cells and steps make of it";
     const ORDERS: &str = "linear pressures, mean strains of cells, backward Euler's rule";
     vec![
-        Check::truth("difference-equations", "pressure in the middle and the paths of plate and side are in every step what elimination of the difference equations gives, but for 10 F/(G a) of finite strain and its rounding")
+        Check::truth("difference-equations", "pressure in the middle and paths of plate and side agree in every step with the eliminated difference equations within 10 F/(G a) of finite strain and its rounding")
             .at_most(EQUATIONS_DISTANCE, |c| c.finite())
             .because("the equations of cells, nodes and plate at small strain, docs/mandel.md"),
         Check::truth("centre-pressure", "no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
             .at_most(CENTRE_PRESSURE_ERROR, |c| c.errors_of_equations().centre + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("settlement", "of a plate: likewise")
+        Check::truth("settlement", "path of a plate no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
             .at_most(SETTLEMENT_ERROR, |c| c.errors_of_equations().settlement + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("bulge", "of a side: likewise")
+        Check::truth("bulge", "path of a side no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
             .at_most(BULGE_ERROR, |c| c.errors_of_equations().bulge + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("peak", "as high as the series' but for the error of the pressure and what the series falls by between steps")
+        Check::truth("peak", "as high as the series' peak within the error of the pressure and the fall of the series between steps")
             .within(PEAK, |c| c.peak_between_steps().0, |c| {
                 c.errors_of_equations().centre + c.peak_between_steps().1 + c.finite()
             })
@@ -165,14 +165,14 @@ fn checks() -> Vec<Check> {
                 |c| 2.0 * (c.errors_of_equations().centre + c.finite()) + c.peak_between_steps().1,
             )
             .because("both pressures at both times are apart by the error at most"),
-        Check::truth("support", "the plane of symmetry below bears the force on the plate, but for what Newton's method and rounding of strains leave")
+        Check::truth("support", "the reaction of the symmetry plane below equals the force on the plate within Newton's residual and rounding of strains")
             .at_most(SUPPORT_ERROR, |c| {
                 let unknowns = 2.0 * c.nodes();
                 let left = 2.0 * unknowns.sqrt() * c.tolerance;
                 ROUNDING + left + c.rounding()
             })
             .because("the equations of all nodes add up to the balance of forces"),
-        Check::truth("water", "volume and outflow change together but for what Newton's method and rounding of J̃ leave in every step")
+        Check::truth("water", "the changes of volume and outflow agree in every step within Newton's residual and rounding of J̃")
             .at_most(MASS_ERROR, |c| {
                 let cells = WIDTH / c.h;
                 // Each node stores and moves at most (1 + 2 n) times the outflow, over all of them.

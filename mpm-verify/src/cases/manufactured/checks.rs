@@ -92,7 +92,7 @@ impl Wave {
         if self.error_of_steps(r) >= 1.0 {
             return Some("steps as long as these follow nothing of the motion");
         }
-        // Of central differences, beside that of the cells: θ²/12 of the driven motion.
+        // Error of central differences, beside that of the cells: θ²/12 of the driven motion.
         let (phase, kh) = (phase(r), self.resolution(r));
         if kh >= PI {
             return Some("cells carry no wave that is shorter than two of them");
@@ -200,7 +200,7 @@ struct Ladder {
     claim: Claim,
     /// The metric, the scheme and the levels.
     about: String,
-    /// Observed order over the finest levels; NaN where there is none.
+    /// Observed order over the finest levels; NaN if undefined.
     order: f64,
     /// Largest ratio of the error at a level to that at the one before; NaN if a run has none: one that broke down
     /// must not be lost among the others.

@@ -19,18 +19,18 @@ metrics! { pub(in crate::cases) METRICS:
         "largest rms over the particles of the exact u since the start";
     DISPLACEMENT_RATIO = "displacement_ratio", "-",
         "projection of the displacement on the exact one, over it";
-    VELOCITY_RATIO = "velocity_ratio", "-", "likewise of the velocity";
+    VELOCITY_RATIO = "velocity_ratio", "-", "projection of the velocity on the exact one, over it";
     ENERGY_GAIN = "energy_gain", "-",
         "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy";
-    ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
-    ENERGY_END = "energy_end", "-", "rise at the end, likewise";
+    ENERGY_LOSS = "energy_loss", "-", "largest fall of that energy below its start, relative to the largest kinetic energy";
+    ENERGY_END = "energy_end", "-", "rise of that energy at the end over its start, relative to the largest kinetic energy";
     LUMPING_LOSS = "lumping_loss", "-",
         "midpoint: energy that the lumped share of the mass took, relative to the largest kinetic energy";
     KINETIC_ENERGY_PEAK = "kinetic_energy_peak", "J", "largest kinetic energy";
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     MASS = "mass", "kg",
         "mass of the particles, per metre in plane strain and per square metre in uniaxial strain";
-    BODY_MASS = "body_mass", "kg", "ρ₀ times the volume of the body, likewise";
+    BODY_MASS = "body_mass", "kg", "ρ₀ times the volume of the body, per metre in plane strain and per square metre in uniaxial strain";
     DAMPING = "damping", "-", "−ln amplitude_ratio";
     FREQUENCY_RATIO = "frequency_ratio", "-",
         "frequency of the standing wave, from the zeros of its displacement, over the exact one";

@@ -69,7 +69,7 @@ metrics! { ALL:
     DISPLACEMENT_SCALE = "displacement_scale", "m", "rms over the particles of the exact u at the end";
     PRESSURE_L2 = "pressure_l2", "-",
         "rms over the particles of p less the exact one at the end, over that of the exact p";
-    PRESSURE_LINF = "pressure_linf", "-", "largest such error, likewise";
+    PRESSURE_LINF = "pressure_linf", "-", "largest error of p at a particle at the end, over the rms of the exact p";
     PRESSURE_SCALE = "pressure_scale", "Pa", "rms over the particles of the exact p at the end";
     STRESS_L2 = "stress_l2", "Pa", "rms of the Frobenius norm of the error of the effective Cauchy stress";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";

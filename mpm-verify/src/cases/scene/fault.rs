@@ -24,7 +24,7 @@ impl Source {
         toml::from_str(&self.text).map_err(|e| {
             let span = e.span().unwrap_or_default();
             let mut said = e.message().replace('\n', "; ");
-            // Of a table that stands for one of several kinds.
+            // Message for a table that stands for one of several kinds.
             if said.starts_with("wanted exactly 1 element") {
                 said = "one kind of it is allowed, and the file names more or none".to_owned();
             }
@@ -35,7 +35,7 @@ impl Source {
         })
     }
 
-    /// What is wrong with the value of a span.
+    /// Error in the value of a span.
     pub(super) fn fault(&self, span: &Range<usize>, said: impl std::fmt::Display) -> Error {
         let before = self.text.get(..span.start).unwrap_or_default();
         let line = before.matches('\n').count() + 1;
@@ -46,7 +46,7 @@ impl Source {
         Error::file(&self.path, told)
     }
 
-    /// What is wrong with a value that remembers its place.
+    /// Error in a value with a known place.
     pub(super) fn at<T>(&self, value: &Line<T>, said: impl std::fmt::Display) -> Error {
         self.fault(&value.span(), said)
     }

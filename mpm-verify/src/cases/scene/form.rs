@@ -1,4 +1,4 @@
-//! What a scene file may hold: its keys, their units in their names, and the ranges of their values.
+//! Form of a scene file: its keys, their units in their names, and the ranges of their values.
 
 use super::fault::Line;
 use serde::Deserialize;
@@ -53,7 +53,7 @@ numbers! {
         format!("a whole number from 4 to {MOST_CELLS}");
 }
 
-/// A name of the user's: it heads columns and is told.
+/// A name chosen by the user; it heads columns and appears in messages.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub(super) struct Name(pub(super) String);
@@ -102,7 +102,7 @@ pub(super) struct GridForm {
     pub(super) ends: Vec<EndsForm>,
 }
 
-/// What the two ends of an axis are, the lower one first.
+/// Conditions at the two ends of an axis, the lower one first.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(super) enum EndsForm {
@@ -365,7 +365,7 @@ pub(super) enum WallsForm {
 pub(super) struct PhaseForm {
     pub(super) name: Name,
     pub(super) duration_s: Positive,
-    /// Of explicit runs.
+    /// Explicit runs only.
     pub(super) local_damping: Option<Share>,
     /// In place of the scene's, of the same kind: a strength that is reduced.
     pub(super) law: Option<LawForm>,

@@ -15,7 +15,7 @@ pub(super) enum Material {
 }
 
 impl Material {
-    /// Of a form, in a body of a porosity.
+    /// Material of a form, in a body of the given porosity.
     pub(super) fn of(form: &LawForm, porosity: Option<f64>) -> Result<Self, mpm_core::Error> {
         let soaked = |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
         Ok(match form {

@@ -1,4 +1,4 @@
-//! What a scene file makes of body and steps, in words: a slip in a unit shows here.
+//! Body and steps made from a scene file, in words: a wrong unit shows here.
 
 use super::fault::Line;
 use super::form::LoadForm;
@@ -6,7 +6,7 @@ use super::phase::Phase;
 use super::setup::Setup;
 
 impl<const D: usize> Setup<D> {
-    /// What the file makes of the body and of every phase.
+    /// Description of the body and of every phase.
     pub(super) fn made(&self) -> Vec<String> {
         let reach: [f64; D] = std::array::from_fn(|a| {
             let along = || self.places.iter().map(|x| x[a]);

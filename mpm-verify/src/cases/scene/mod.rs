@@ -33,7 +33,7 @@ use solving::{Compiled, Solving};
 use std::path::Path;
 use watch::{Course, MASS};
 
-/// What a check on a run's mass allows, relative to it: a sum of so many terms rounds.
+/// Relative tolerance of the check of a run's mass: a sum of many terms rounds.
 const ROUNDING: f64 = 1e-9;
 
 /// A scene that a file describes.
@@ -44,7 +44,7 @@ pub struct SceneFile {
     pub spec: RunSpec,
     /// The title in the file.
     pub title: String,
-    /// What the file makes of body and steps, a line each: a slip in a unit shows here.
+    /// Body and steps made from the file, a line each: a wrong unit shows here.
     pub made: Vec<String>,
 }
 
@@ -90,7 +90,7 @@ impl SceneFile {
     }
 }
 
-/// What is found by building a scene.
+/// Result of building a scene.
 struct Found {
     scheme: Scheme,
     /// Mass (kg, kg/m in plane strain).
@@ -126,7 +126,7 @@ where
     Ok(Box::new(Driver::new(course)?))
 }
 
-/// The case of a scene in so many dimensions whose body has a `mass` (kg).
+/// The case of a scene in `dimension` dimensions whose body has a `mass` (kg).
 fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
     let kept = run(move |r| {
         let why = "particles carry their mass: a sum of it rounds";

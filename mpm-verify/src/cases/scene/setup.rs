@@ -35,10 +35,10 @@ pub(super) struct Setup<const D: usize> {
 }
 
 impl<const D: usize> Setup<D> {
-    /// Of what a file says.
+    /// Set-up of the scene in a file.
     ///
     /// # Errors
-    /// What it says makes no scene: the error names line and key.
+    /// The form is not a valid scene: the error names line and key.
     pub(super) fn new(source: &Source, form: Form) -> Result<Self, Error> {
         let grid = grid(source, &form)?;
         let scheme = scheme(source, &form)?;

@@ -30,7 +30,7 @@ fn places(job: &mut dyn Job) -> Vec<Vec<f64>> {
     places.map(|c| c.values).collect()
 }
 
-/// That so many rows of the file's run end, step for step, where those of the case do, to the last bit.
+/// Checks that `rows` rows of the file's run end, step for step, bit-identical to those of the case.
 fn same_bits(file: &str, case: &str, level: &str, set: &[&str], rows: usize) {
     let [mut ours, mut cases] = both(file, case, level, set);
     assert_eq!(ours.discretisation(), cases.discretisation(), "{file}");
@@ -56,7 +56,7 @@ fn shipped_scenes_are_the_cases_to_the_last_bit() {
     same_bits("dam-break.toml", "dam-break", "h0.5", &staged, 13);
 }
 
-/// What is said of `slope.toml` with `from` replaced by `to`.
+/// Error message for `slope.toml` with `from` replaced by `to`.
 fn refusal(from: &str, to: &str) -> String {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("own.toml");

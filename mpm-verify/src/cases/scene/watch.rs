@@ -1,4 +1,4 @@
-//! What is seen of a scene's run: phase by phase, row by row.
+//! Observation of a scene's run: phase by phase, row by row.
 
 use super::phase::Phase;
 use super::setup::Setup as Made;
@@ -27,7 +27,7 @@ metrics! { pub(super) ALL:
     PLASTIC = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
 }
 
-/// A unit in so many dimensions: in the plane masses, energies and forces are per metre of depth.
+/// A unit in `dimension` dimensions: in the plane masses, energies and forces are per metre of depth.
 fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
     match (unit, dimension) {
         ("kg", 2) => "kg/m",
@@ -37,13 +37,13 @@ fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
     }
 }
 
-/// The metrics of a scene in so many dimensions.
+/// The metrics of a scene in `dimension` dimensions.
 pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
     let of = |m: &Metric| Metric { unit: per_depth(m.unit, dimension), ..*m };
     ALL.iter().map(of).collect()
 }
 
-/// What has been seen of a run.
+/// Observed state of a run.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// The phase, and its rows so far.

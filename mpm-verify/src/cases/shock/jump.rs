@@ -38,8 +38,8 @@ fn stress(law: &NeoHookean, stretch: f64) -> f64 {
 }
 
 impl Jump {
-    /// Of a bar of this density (kg/m³) that runs into a wall at `speed` (m/s). Mass: V = S (1 − F). Momentum: −P = ρ₀ S V.
-    /// So −P (1 − F) = ρ₀ V², whose left side falls as F rises.
+    /// The jump of a bar of this density (kg/m³) that runs into a wall at `speed` (m/s). Mass: V = S (1 − F). Momentum:
+    /// −P = ρ₀ S V. So −P (1 − F) = ρ₀ V², whose left side falls as F rises.
     pub(super) fn new(law: &NeoHookean, density: f64, speed: f64) -> Self {
         let (mut lo, mut hi) = (0.0, 1.0);
         for _ in 0..HALVINGS {

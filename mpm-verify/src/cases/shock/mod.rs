@@ -43,7 +43,7 @@ metrics! { ALL:
     RINGING = "ringing", "-", "rms of their stresses about the mean, over the exact one";
     ENERGY_LOSS = "energy_loss", "-",
         "kinetic and stored energy that is lost at the end, over that of the start; 0 if there is more";
-    ENERGY_GAIN = "energy_gain", "-", "largest rise of it, likewise";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy, over their start";
     ENERGY_LOSS_ERROR = "energy_loss_error", "-",
         "energy lost at the end over what the exact front has taken by then, less one";
     LOSS_RATE_ERROR = "loss_rate_error", "-",
@@ -185,16 +185,16 @@ fn checks() -> Vec<Check> {
         |check: Check, metric| check.within(metric, |_| 0.0, |r| 2.0 * r.bound()).of_scale(|_| 1.0).because(JUMPS);
     vec![
         exact(
-            Check::truth("shock-speed", "the front's speed is the exact one, within two cells over the way on which it is measured and twice what the energy that rings does to the stress; without a remedy and with fbar-consistent, but for linear functions, whose stress fades as they cross cells")
+            Check::truth("shock-speed", "none and fbar-consistent, except linear functions: the front's speed is exact within two cells over the measured way and twice the effect of ringing on the stress")
                 .when(|r| r.is_sound()),
             SHOCK_SPEED_ERROR,
         ),
         exact(
-            Check::truth("stress", "the mean stress behind it is the exact one, likewise").when(|r| r.is_sound()),
+            Check::truth("stress", "none and fbar-consistent, except linear functions: the mean stress behind the front is exact within the tolerance of shock-speed").when(|r| r.is_sound()),
             STRESS_ERROR,
         ),
         exact(
-            Check::truth("wall-force", "the wall takes the exact momentum, likewise").when(|r| r.is_sound()),
+            Check::truth("wall-force", "none and fbar-consistent, except linear functions: the wall takes the exact momentum within the tolerance of shock-speed").when(|r| r.is_sound()),
             WALL_FORCE_ERROR,
         ),
         Check::truth("velocity", "the mean velocity behind it is zero, within a cell over the way and half of what the energy that rings does to the stress")
@@ -207,11 +207,11 @@ fn checks() -> Vec<Check> {
             .at_most(ENERGY_GAIN, |r| r.cfl * r.h)
             .because("velocities live half a step before places, in the front alone"),
         exact(
-            Check::truth("energy-loss", "likewise, with an artificial viscosity whose linear part takes what rings, where the front is steady: it takes the exact energy in a second, within two cells over the way on which it is measured")
+            Check::truth("energy-loss", "as shock-speed, with a linear artificial viscosity that damps the ringing, steady front: the energy dissipated per second is exact within two cells over the measured way")
                 .when(|r| r.is_steady()),
             LOSS_RATE_ERROR,
         ),
-        Check::truth("front-width", "likewise: the front is as wide as the steady one, within as many cells as functions have nodes")
+        Check::truth("front-width", "as energy-loss: the front has the width of the steady one within as many cells as functions have nodes")
             .when(|r| r.is_steady())
             .within(FRONT_WIDTH, |r| r.metric(PREDICTED_WIDTH), |r| r.support())
             .because("q bears what line and law leave; a function's support is the least that is seen of a jump"),

@@ -41,8 +41,8 @@ metrics! { ALL:
     MOMENTUM_ERROR = "momentum_error", "-",
         "largest linear momentum over the mass times the speed of the rim; 10⁻¹² if it is less";
     ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy, over their start";
-    ENERGY_LOSS = "energy_loss", "-", "largest fall, likewise";
-    ENERGY_END = "energy_end", "-", "change at the end, likewise";
+    ENERGY_LOSS = "energy_loss", "-", "largest fall of kinetic and stored energy, over their start";
+    ENERGY_END = "energy_end", "-", "change of kinetic and stored energy at the end, over their start";
     STRETCH_ERROR = "stretch_error", "-",
         "largest distance of the rms radius from that of the exact disc that turns as fast as the particles do by their angular momentum, over what the turning adds to it at the start";
     STRETCH_MEAN_ERROR = "stretch_mean_error", "-", "mean of that distance over the last half of the run, with its sign";

@@ -49,7 +49,7 @@ metrics! { ALL:
     STRESS_NOISE = "stress_noise", "-",
         "largest rms over the free part of what the stress differs from the exact one by, over it, up to unstable_stretch; of linear functions to predicted_tear_stretch";
     PREDICTED_NOISE = "predicted_noise", "-",
-        "largest rms of the stress that answers the forces of a uniform stress on the lattice, likewise";
+        "largest rms of the stress that answers the forces of a uniform stress on the lattice, over the exact stress, up to the same stretch";
     STRESS_KEPT = "stress_kept", "-", "mean stress of the free part at the end, over the exact one";
 }
 

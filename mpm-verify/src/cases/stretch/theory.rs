@@ -17,7 +17,7 @@ const NEARBY: f64 = 1e-6;
 const BESIDE: usize = 4;
 /// The least mass of a node that counts, in that of a particle's volume.
 const SEEN: f64 = 1e-9;
-/// What counts as below zero of a stiffness over a mass.
+/// Stiffness over mass below which it counts as negative.
 const ROUNDING: f64 = 1e-9;
 
 /// A basis and the half size of the particles (cells).
@@ -90,7 +90,7 @@ impl Lattice {
         stiffness
     }
 
-    /// Rms of the stress that answers the forces of a uniform stress, over it, with so many particles a cell: see
+    /// Rms of the stress that answers the forces of a uniform stress, over it, with `per_cell` particles a cell: see
     /// `docs/stretch.md`.
     pub(super) fn noise(&self, per_cell: f64) -> f64 {
         let of_basis = |k: f64| transform(self.basis, 0.5 / self.half_size, k);

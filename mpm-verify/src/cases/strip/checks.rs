@@ -11,17 +11,17 @@ const FINITE: f64 = 10.0;
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Strip>;
     vec![
-        Check::truth("water", "volume and outflow change together but for what Newton's method and rounding of J̃ leave")
+        Check::truth("water", "the changes of volume and outflow agree within Newton's residual and rounding of J̃")
             .at_most(MASS_ERROR, balance_error)
             .because("the equations of all nodes add up to the balance of the soil"),
         // The rest of the last part of a step that has no solution is no less in balance.
-        Check::truth("support", "the base bears all loads but for what Newton's method leaves")
+        Check::truth("support", "the reaction of the base equals all loads within Newton's residual")
             .at_most(SUPPORT_ERROR, |s| {
                 let unknowns = f64::from(s.dimension) * nodes(s);
                 ROUNDING + 2.0 * unknowns.sqrt() * s.tolerance
             })
             .because("the equations of all nodes add up to the balance of forces"),
-        Check::truth("taylor-hood", "small load, three levels: the settlement of the finest is that of the finite elements but for the grid convergence index, their uncertainty and 10 q/G of finite strain")
+        Check::truth("taylor-hood", "small load, three levels: the finest settlement agrees with the finite elements within the grid convergence index, their uncertainty and 10 q/G of finite strain")
             .study(settlements),
         Check::truth("pressure", "small load, two grids, three levels: order in h of the pressure's rms distance from the finite elements at least 1 − 0.15")
             .study(|records| {
@@ -39,7 +39,7 @@ pub(super) fn checks() -> Vec<Check> {
                     .map(|(name, order)| Finding::at_most(name, order, 1.0 - SLACK, why))
                     .collect()
             }),
-        Check::truth("square", "a square, small load, two levels: the settlement of the finer is that of the finite elements but for an index of first order with a safety of 3, their uncertainty and 10 q/G of finite strain")
+        Check::truth("square", "square, small load, two levels: the finer settlement agrees with the finite elements within a first-order index with a safety of 3, their uncertainty and 10 q/G of finite strain")
             .study(squares),
         Check::truth("smooth", "two grids, the whole load, elastic and Cam clay, three levels: order in h of the pressure's roughness at least 1 − 0.15")
             .study(|records| {
@@ -62,13 +62,13 @@ pub(super) fn checks() -> Vec<Check> {
             }),
         Check::truth("uniform-clay", "Cam clay under a load on its whole surface that water leaves freely, 10, 20 and 40 steps: order in Δt of the settlement's distance from the integrated rates at least 1 − 0.15")
             .study(uniform),
-        Check::truth("one-limit-load", "Cam clay: 10, 20 and 40 steps of the load end at the same one, but for what a step is halved to and the geometry of different settlements")
+        Check::truth("one-limit-load", "Cam clay: 10, 20 and 40 load steps end at the same limit load within the least part of a step and the geometry of different settlements")
             .study(one_limit),
         Check::truth("plateau", "undrained clay under a settlement: in its last quarter the load grows by no more than a depth factor of 1 + s/B")
             .when(|s| s.is_driven() && s.is_plastic())
             .at_most(GROWTH, |s| 0.25 * s.penetration / s.half_width)
             .because("a strip that bears its limit; Hansen's depth factor is 1 + 0.2 s/B"),
-        Check::truth("prandtl", "undrained clay, three levels, under a load and under a settlement: the limit of the finest is Prandtl's but for the grid convergence index and the settlement")
+        Check::truth("prandtl", "undrained clay, three levels, under a load and under a settlement: the limit load of the finest is Prandtl's within the grid convergence index and the settlement")
             .study(limits),
     ]
 }

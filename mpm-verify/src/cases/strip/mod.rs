@@ -66,7 +66,7 @@ parameters! {
         steps: i32 = whole("-", "20", 1, 10_000), "equal steps";
         control: Control = CONTROL, "what is given: a load on the flexible strip, or the settlement of a rigid smooth one";
         penetration: f64 = real("m", "0.01", 1e-9, 0.1),
-            "settlement at which a limit load is told; of control=settlement that at the end";
+            "settlement at which the limit load is reported; with control=settlement the settlement at the end";
         drain: f64 = real("-", "1e4", 1.0, 1e6), "what the drained surface lets through for its pressure, over κ₀/h";
         ghost_displacement: f64 = real("-", "0.1", 0.0, 10.0), "ghost penalty of the displacement over G";
         ghost_pressure: f64 = real("-", "0.01", 0.0, 10.0), "ghost penalty of the pressure over κ₀ Δt";
@@ -86,7 +86,7 @@ metrics! { ALL:
     SETTLEMENT = "settlement", "-",
         "settlement at the end of the particle next to the axis at the surface, over the half width B";
     SETTLEMENT_RATIO = "settlement_ratio", "-",
-        "likewise over that of finite elements at small strain; none but of elastic soil under 1 kPa at most, in their steps or undrained";
+        "settlement over that of finite elements at small strain; only for elastic soil under at most 1 kPa, in their steps or undrained";
     PRESSURE_ERROR = "pressure_error", "-",
         "rms over the particles at the end of the pressure's distance from that of the same elements, over the load";
     PRESSURE_ERROR_LARGEST = "pressure_error_largest", "-",

@@ -38,7 +38,7 @@ metrics! { ALL:
     PRESSURE_L2 = "pressure_l2", "-",
         "rms over the particles, at the end, of the pressure less Terzaghi's, over the load";
     PRESSURE_L2_STEPS = "pressure_l2_steps", "-",
-        "likewise less the exact solution in space of the same backward Euler steps: the error of space alone";
+        "rms over the particles, at the end, of the pressure less the exact solution in space of the same backward Euler steps, over the load: the error of space alone";
     OVERSHOOT_FIRST_STEP = "overshoot_first_step", "-",
         "largest pressure at a node after the first step over the load, less one; zero where none exceeds it by 10⁻⁹";
     SETTLEMENT_ERROR = "settlement_error", "-",
@@ -125,7 +125,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Terzaghi>;
     vec![
-        Check::truth("water", "volume and outflow change together but for what Newton's method and rounding of J̃ leave in every step")
+        Check::truth("water", "the changes of volume and outflow agree in every step within Newton's residual and rounding of J̃")
             .at_most(MASS_ERROR, |c| {
                 // Where the flux is linear in height: √(4/3) of the cell's balance, over all cells.
                 let newton = 1.2 * (HEIGHT / c.h) * c.tolerance;

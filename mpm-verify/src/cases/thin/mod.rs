@@ -47,8 +47,8 @@ metrics! { ALL:
     FREQUENCY_RATIO = "frequency_ratio", "-", "first frequency over that of Timoshenko's beam";
     FREQUENCY_ERROR = "frequency_error", "-", "how far it is off one";
     PREDICTED_RATIO = "predicted_ratio", "-",
-        "likewise, of a beam whose bending stiffness is what its functions and particles make of it, an upper bound with gimp and fbar-consistent; none where that is not known";
-    STIFFNESS_RATIO = "stiffness_ratio", "-", "that bending stiffness over the exact one; likewise";
+        "predicted frequency_ratio of a beam with the bending stiffness of its functions and particles, an upper bound with gimp and fbar-consistent; none where that stiffness is unknown";
+    STIFFNESS_RATIO = "stiffness_ratio", "-", "that bending stiffness over the exact one; none where it is unknown";
     AMPLITUDE_RATIO = "amplitude_ratio", "-", "largest deflection in the last period over that in the first";
 }
 
@@ -128,7 +128,7 @@ fn sketch() -> Sketch {
             Shape::length([0.0, -0.08], [end, -0.08], "1 m, half of it"),
             Shape::length([1.1, 0.0], [1.1, top], "0.1 m"),
         ],
-        description: "Half of a beam of 2 m by 0.1 m that is free but for the symmetry in its middle.",
+        description: "Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.",
     }
 }
 

@@ -34,7 +34,7 @@ pub(super) struct Mode {
 }
 
 impl Beam {
-    /// Of Young's modulus (Pa), Poisson's ratio and density (kg/m³), its bending stiffness times `factor`.
+    /// Beam of Young's modulus (Pa), Poisson's ratio and density (kg/m³), with its bending stiffness times `factor`.
     pub(super) fn new(young: f64, ratio: f64, density: f64, factor: f64) -> Self {
         let plane = ratio / (1.0 - ratio);
         // Cowper's coefficient of a rectangle.
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn shear_and_rotation_slow_a_beam_by_what_the_expansion_says() {
-        // Of the first order in I/(A L²), with c₁ = 49.5 of a free beam: Goens.
+        // First order in I/(A L²), with c₁ = 49.5 of a free beam: Goens.
         let beam = Beam::new(1e6, 0.0, 1000.0, 1.0);
         let slender = Beam { shear: 1e9 * beam.shear, inertia: 1e-9 * beam.inertia, ..beam };
         let slower = beam.first().frequency / slender.first().frequency;

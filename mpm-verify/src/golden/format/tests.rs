@@ -120,7 +120,7 @@ fn numbers_may_move_as_far_as_rounding_takes_them() {
     let scale = column("metric/tip (m)", &[point(None, -2.5, 0.0)]);
     assert_eq!((scale.scale(), scale.tolerance(&scale.points[0])), (2.5, 2.5e-7));
     let series = &golden().runs[0].columns[1];
-    // Of the column, not of the row.
+    // Scale of the column, not of the row.
     assert_eq!((series.scale(), series.tolerance(&series.points[1])), (1.0, 1e-7));
     assert_eq!((series.response(), series.is_blunt()), (1e-12, false));
     assert!(!series.is_count() && series.is_loose().is_none());
@@ -168,7 +168,7 @@ fn a_picture_shows_schemes_beside_each_other() {
     let columns = golden.runs[0].columns.clone();
     let names = |golden: &Golden| -> Vec<String> { golden.shown().into_iter().map(|run| run.name).collect() };
     assert_eq!(names(&golden), ["a/h2", "b/h2"]);
-    // Of as many the first; of more, those.
+    // The first among equally frequent levels; the more frequent level otherwise.
     golden.runs.push(run("a/h1", columns.clone()));
     golden.runs.push(run("b/h1", columns.clone()));
     assert_eq!(names(&golden), ["a/h2", "b/h2"]);

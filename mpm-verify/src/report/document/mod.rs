@@ -95,13 +95,13 @@ impl Text {
         Self::mark(format!("{symbol} {words}"), class)
     }
 
-    /// What goes on behind it.
+    /// Appends a text.
     pub(super) fn then(mut self, next: impl Into<Self>) -> Self {
         self.0.extend(next.into().0);
         self
     }
 
-    /// What goes on in a new line.
+    /// Appends a text in a new line.
     pub(super) fn then_below(self, next: impl Into<Self>) -> Self {
         self.span("break", "\n", "").then(next)
     }
@@ -119,9 +119,9 @@ impl Text {
 pub(super) struct Cell {
     text: Text,
     class: String,
-    /// What a page says of it when it is pointed at.
+    /// Text shown by a page when the pointer is on the cell.
     title: String,
-    /// What is behind the text in Markdown, where nothing can be pointed at.
+    /// Text behind the cell in Markdown, which has no pointer.
     aside: String,
     is_head: bool,
 }
@@ -139,7 +139,7 @@ impl Cell {
         Self { class, ..Self::from(text) }
     }
 
-    /// What a row is about.
+    /// Head of a row.
     pub(super) fn head(text: impl Into<Text>) -> Self {
         Self { is_head: true, ..Self::from(text) }
     }
@@ -202,7 +202,7 @@ pub(super) struct Shown {
 }
 
 impl Shown {
-    /// Of a report in `out`.
+    /// Figure of a report in `out`.
     pub(super) fn of(picture: &Picture, out: &Path) -> Self {
         let Picture { file, caption } = picture.clone();
         let stem = file.rsplit_once('.').map_or(&*file, |(stem, _)| stem);
@@ -245,7 +245,7 @@ enum Block {
     Facts {
         facts: Vec<[String; 2]>,
     },
-    /// What a page shows when its summary is clicked on.
+    /// Part that a page shows when its summary is clicked on.
     Folded {
         id: String,
         open: bool,
@@ -281,7 +281,7 @@ impl Document {
         self.classed("", text);
     }
 
-    /// What is small.
+    /// Adds a paragraph in small print.
     pub(super) fn note(&mut self, text: impl Into<Text>) {
         self.classed("note", text);
     }

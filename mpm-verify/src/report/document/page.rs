@@ -9,7 +9,7 @@ use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
 use std::path::Path;
 
-/// What the template of a page is given.
+/// Variables of a page's template.
 #[derive(Serialize)]
 struct Page<'a> {
     title: &'a str,

@@ -29,7 +29,7 @@ pub(in crate::report) fn wrapped(text: &str, first: &str, indent: &str) -> Strin
     textwrap::fill(text, options) + "\n"
 }
 
-/// The start of a text that fits so many columns.
+/// The start of a text that fits this number of columns.
 pub(in crate::report) fn cut(text: &str, columns: usize) -> String {
     match text.chars().count() > columns {
         true => text.chars().take(columns - 1).collect::<String>() + "…",

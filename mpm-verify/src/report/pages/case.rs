@@ -107,8 +107,8 @@ fn sentence(study: &CaseStudy) -> String {
         false => format!(" Known limits seen: {}.", limits.join(", ")),
     };
     let all = match study.records.len() {
-        1 => "Of one run,".to_owned(),
-        several => format!("Of {several} runs,"),
+        1 => "1 run:".to_owned(),
+        several => format!("{several} runs:"),
     };
     format!("{all} {right} right, {known} wrong as known, {not_judged} not judged, {failed} FAILED.{seen}")
 }

@@ -49,7 +49,7 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
     page.table("Faults and cases", table);
     page.note(Text::marked(
         "The faults are those of the last run of `just mutants` and not of this report. A fault is tried in all runs that reach \
-         its line, but for three sets that take seconds each and are made for their own faults only. Every check by name: \
+         its line; three sets, which take seconds each, are made for their own faults only. Every check by name: \
          `docs/kill-matrix.md`.",
     ));
     page

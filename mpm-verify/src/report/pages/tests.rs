@@ -1,4 +1,4 @@
-//! What pages say and link, and how large they are.
+//! Content, links and size of the pages.
 
 use super::*;
 use crate::files::write_whole;
@@ -46,7 +46,7 @@ fn no_text_breaks_a_page_and_each_says_what_failed_and_what_made_it() {
         assert!(page.contains("source 0123456789ab") && page.contains("2026-01-02"));
     }
     assert!(index.contains("⚠ Broke down:") && index.contains("something failed"));
-    assert!(case.contains("Of 3 runs, 1 right, 0 wrong as known, 0 not judged, 2 FAILED."));
+    assert!(case.contains("3 runs: 1 right, 0 wrong as known, 0 not judged, 2 FAILED."));
     assert!(case.contains("broke down at 1 s"));
     summary.cases[0].night = None;
     assert!(pages(&summary).iter().all(|page| !page.contains("2026-01-02")));

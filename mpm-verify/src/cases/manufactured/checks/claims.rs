@@ -12,7 +12,7 @@ pub(super) const FORMAL: f64 = 2.0;
 pub(in crate::cases) const STALLED: f64 = FORMAL - SLACK;
 /// Displacements (m) beyond this cross cells that the levels have.
 const CROSSING: f64 = 0.01;
-/// Below this cell size (m) the vortex crosses so many cells that errors have a floor.
+/// Cell size (m) below which the vortex crosses enough cells that errors have a floor.
 const FLOOR: f64 = 0.01;
 /// Below this one (m) fbar-total and fbar-rate take enough steps to feed the null space.
 const FED: f64 = 0.02;
@@ -56,7 +56,7 @@ pub(in crate::cases) fn is_beyond_unseen(r: &Setup<()>) -> bool {
     r.remedy() == FbarConsistent && compressible < UNSEEN * UNSEEN
 }
 
-/// Whether a scheme feeds the null space for so many steps that it shows.
+/// Whether a scheme feeds the null space for enough steps that it shows.
 pub(in crate::cases) fn feeds_null_space(r: &Setup<()>) -> bool {
     matches!(r.remedy(), FbarTotal | FbarRate) && r.h < FED
 }
