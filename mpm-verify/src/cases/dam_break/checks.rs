@@ -175,21 +175,18 @@ pub(super) fn checks() -> Vec<Check> {
             .when(|w| w.remedy() == FbarRecursive && w.is_exact() && w.has_small_steps())
             .above(Quantity::new(BASE_REACTION_RATIO.name, |w: &Water| 1.0 - w.metric(BASE_REACTION_RATIO)), |w| w.at_rest())
             .because("averages of averages diffuse the volume: docs/column.md"),
-        Check::truth("pressure-profile", "none, fbar-rate, fbar-consistent: the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)")
-            .when(|w| !w.smooths())
+        Check::truth("pressure-profile", "the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)")
             .at_most(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("hydrostatics"),
         Check::known_limit("smoothed-start", "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface")
             .when(|w| w.smooths() && w.is_exact())
             .above(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("Π takes the mean of J over what is there: at floor and surface that lies to one side"),
-        Check::truth("front", "F̄ with FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")
-            .when(|w| w.is_averaged())
+        Check::truth("front", "FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")
             .unless(|w| w.front_is_open())
             .at_most(FRONT_RMS_ERROR, |w| w.front_bound())
             .because("inviscid front; a grid resolves no tongue thinner than a cell"),
-        Check::truth("arrival", "F̄ with FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell")
-            .when(|w| w.is_averaged())
+        Check::truth("arrival", "FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell")
             .unless(|w| w.front_is_open())
             .at_most(ARRIVAL_ERROR, |w| {
                 let passes = passage(TANK - 2.0 * w.h);

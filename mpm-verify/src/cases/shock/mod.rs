@@ -79,7 +79,13 @@ pub(super) fn case() -> Case {
                 "mean stress behind the front, and momentum that the wall takes",
                 &["stress", "wall-force"],
             )
-            .missed_by(&["recursion-smears", "averaged-hats-lose-stress", "rings", "weak-viscosity-rings"]),
+            .missed_by(&[
+                "front-missed",
+                "recursion-smears",
+                "averaged-hats-lose-stress",
+                "rings",
+                "weak-viscosity-rings",
+            ]),
         ],
         checks: checks(),
         headlines: vec![
@@ -172,6 +178,12 @@ impl Run<'_, Shock> {
         self.is_sound() && self.takes_ringing() && (self.support()..0.25 * WAY).contains(&width)
     }
 
+    /// Largest error of the front over its tolerance.
+    fn worst_miss(&self) -> f64 {
+        let errors = [SHOCK_SPEED_ERROR, STRESS_ERROR, WALL_FORCE_ERROR].map(|metric| self.metric(metric).abs());
+        errors.into_iter().fold(0.0, f64::max) / (2.0 * self.bound())
+    }
+
     /// A cell over the way on which the front is measured, and the effect of ringing on the mean stress.
     fn bound(&self) -> f64 {
         let rings = if self.takes_ringing() { 0.0 } else { self.metric(JUMP_BOUND) };
@@ -185,16 +197,15 @@ fn checks() -> Vec<Check> {
         |check: Check, metric| check.within(metric, |_| 0.0, |r| 2.0 * r.bound()).of_scale(|_| 1.0).because(JUMPS);
     vec![
         exact(
-            Check::truth("shock-speed", "none and fbar-consistent, except linear functions: the front's speed is exact within two cells over the measured way and twice the effect of ringing on the stress")
-                .when(|r| r.is_sound()),
+            Check::truth("shock-speed", "the front's speed is exact within two cells over the measured way and twice the effect of ringing on the stress"),
             SHOCK_SPEED_ERROR,
         ),
         exact(
-            Check::truth("stress", "none and fbar-consistent, except linear functions: the mean stress behind the front is exact within the tolerance of shock-speed").when(|r| r.is_sound()),
+            Check::truth("stress", "the mean stress behind the front is exact within the tolerance of shock-speed"),
             STRESS_ERROR,
         ),
         exact(
-            Check::truth("wall-force", "none and fbar-consistent, except linear functions: the wall takes the exact momentum within the tolerance of shock-speed").when(|r| r.is_sound()),
+            Check::truth("wall-force", "the wall takes the exact momentum within the tolerance of shock-speed"),
             WALL_FORCE_ERROR,
         ),
         Check::truth("velocity", "the mean velocity behind it is zero, within a cell over the way and half of what the energy that rings does to the stress")
@@ -227,6 +238,10 @@ fn checks() -> Vec<Check> {
             .when(|r| r.is_weak() && r.remedy() == FbarRecursive)
             .above(ENERGY_LOSS_ERROR, |_| 0.25)
             .because("Eq. (26) diffuses J: a front is smeared, and what it takes is not its own"),
+        Check::known_limit("front-missed", "fbar-recursive, fbar-total, fbar-rate and linear functions: the worst of shock-speed, stress and wall-force, over their tolerance, where it exceeds one")
+            .when(|r| !r.is_sound() && r.worst_miss() > 1.0)
+            .above(Quantity::new(STRESS_ERROR.name, |r: &Run<Shock>| r.worst_miss()), |_| 1.0)
+            .because("averages that differ between force and rate, or that diffuse, and hats whose stress fades as particles cross cells: docs/shock.md"),
         Check::known_limit("averaged-hats-lose-stress", "linear functions with an average, up to Mach 0.5: a tenth and more of the stress is missing")
             .when(|r| r.is_weak() && r.basis() == Linear && r.remedy() != RemedyName::None)
             .at_most(STRESS_ERROR, |_| -0.1)

@@ -111,11 +111,11 @@ fn checks() -> Vec<Check> {
     vec![
         Check::truth("lower-bound", "all: the factor is above the lower bound of limit analysis less half the last bracket")
             .when(|c| c.bounds().is_some())
+            .unless(move |c| (lower(c) < 1.0).then(|| "the last bracket is too wide: the factor of the unreduced slope meets this bound".to_owned()))
             .above(STRENGTH_REDUCTION_FACTOR, lower)
             .because("lower bound of limit analysis: docs/exact.md"),
-        Check::truth("limit-load", "F̄, and standard quadratic splines at h ≤ 0.2 m in motion: the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure")
+        Check::truth("limit-load", "the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure")
             .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those for 45°".to_owned()))
-            .when(|c| !c.locks())
             .within(STRENGTH_REDUCTION_FACTOR, move |c| 0.5 * (lower(c) + upper(c)), move |c| 0.5 * (upper(c) - lower(c)))
             .because("limit analysis: docs/exact.md"),
         Check::known_limit("locked", "none with GIMP, and with quadratic splines at h > 0.2 m or in equilibrium: the slope still stands at a factor above all that")
