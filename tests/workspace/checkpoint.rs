@@ -134,7 +134,7 @@ fn a_run_that_is_killed_again_and_again_ends_as_if_it_had_not_been() {
     let before = files(&pieces);
     let again = resume(&pieces, &[]);
     assert_eq!(code(&again), ENDS, "{}", stderr(&again));
-    assert!(stdout(&again).contains("has ended before; there is nothing to resume"));
+    assert!(stdout(&again).contains("is already complete; nothing to resume"));
     assert!(files(&pieces) == before);
 }
 

@@ -203,7 +203,7 @@ fn of_two_runs_at_once_one_is_made() {
     });
     assert!([[0, 2], [2, 0]].contains(&codes), "{codes:?}");
     let ended = mpm_verify(&["run", "cook", "--resume", text(folder.path())]);
-    assert!(stdout(&ended).contains("has ended before"), "{}", stderr(&ended));
+    assert!(stdout(&ended).contains("is already complete"), "{}", stderr(&ended));
 }
 
 /// A record vouches for the tables beside it.
@@ -281,7 +281,7 @@ fn an_ended_run_is_judged_again_and_made_again_where_something_is_missing() {
     assert_ne!(forged, sound);
     fs::write(&record, forged.to_string()).unwrap();
     let again = short(&["--resume", text(out)]);
-    assert!(stdout(&again).contains("has ended before"));
+    assert!(stdout(&again).contains("is already complete"));
     assert_eq!(code(&again), code(&first), "{}", stdout(&again));
     fs::write(&record, sound.to_string()).unwrap();
     for name in ["series.csv", "particles.csv"] {

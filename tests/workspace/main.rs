@@ -14,6 +14,7 @@ mod folders;
 mod fuzz;
 mod gate;
 mod kills;
+mod language;
 mod metamorphic;
 mod ranges;
 mod readme;

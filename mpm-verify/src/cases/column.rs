@@ -114,27 +114,27 @@ fn weight(r: &Run<()>) -> f64 {
 fn checks() -> Vec<Check> {
     vec![
         mass(),
-        Gate::truth("base-pressure", "pressure at the floor ρ g H within a quarter of a cell's head, by which an average moves the pressure at a wall")
+        Gate::truth("base-pressure", "pressure at the floor ρ g H within the hydrostatic pressure of a quarter cell")
             .unless(|r| {
                 let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
                 creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())
             })
             .within(BASE_PRESSURE, |r| weight(r) * r.values.number(HEIGHT), |r| 0.25 * r.h * weight(r))
             .because("ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall"),
-        Gate::known_limit("creep", "fbar-recursive: mean J of some cell drifts by more than 10⁻³ per 10⁵ steps")
+        Gate::known_limit("creep", "fbar-recursive: mean J of a cell drifts by more than 10⁻³ per 10⁵ steps")
             .when(|r| r.basis() != Bspline3 && r.remedy() == FbarRecursive)
             .above(TRUE_J_DRIFT_PER_1E5_STEPS, |_| 1e-3)
             .because("Eq. (26) diffuses J with D = ½ s² h²/Δt"),
-        Gate::truth("no-creep", "GIMP and quadratic splines but fbar-recursive, at least 10⁵ steps: the mean J̄ of no cell drifts by more than 10⁻⁶ per 10⁵ steps")
+        Gate::truth("no-creep", "GIMP and quadratic splines except fbar-recursive, at least 10⁵ steps: mean J̄ of every cell drifts by at most 10⁻⁶ per 10⁵ steps")
             .when(rests)
             .unless(|r| (!is_long(r)).then(|| "the ringing of the start is not a drift".to_owned()))
             .at_most(J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations"),
-        Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: the kinetic energy of the last third is more than 100 times that of the middle third")
+        Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: kinetic energy of the last third more than 100 times that of the middle third")
             .when(|r| rests(r) && is_long(r) && grows(r))
             .above(KINETIC_GROWTH, |_| GROWN)
             .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)"),
-        Gate::truth("no-growth", "GIMP and quadratic splines except fbar-recursive and null-mode-grows, at least 10⁵ steps: the largest kinetic energy of the last third does not exceed that of the middle third by more than rounding")
+        Gate::truth("no-growth", "GIMP and quadratic splines except fbar-recursive and null-mode-grows, at least 10⁵ steps: peak kinetic energy of the last third at most that of the middle third, and rounding")
             .when(|r| rests(r) && is_long(r) && !grows(r))
             .at_most(KINETIC_GROWTH, |r| 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; a random walk of last bits excepted"),

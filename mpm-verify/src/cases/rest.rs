@@ -91,16 +91,16 @@ fn table(name: &str, set: &'static str) -> ResultTable {
 fn checks() -> Vec<Check> {
     vec![
         mass(),
-        Gate::truth("stays", "no particle is farther from its place of rest than h² u″/8, u″ = ρ g sin θ/μ")
+        Gate::truth("stays", "distance of every particle from rest at most h² u″/8, u″ = ρ g sin θ/μ")
             .at_most(DISPLACEMENT_LINF, interpolation)
             .because("what piecewise linear functions leave of a displacement that is quadratic in depth"),
-        Gate::truth("base-pressure", "the mean pressure at the foot is (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
+        Gate::truth("base-pressure", "mean pressure at the foot (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
             .within(BASE_PRESSURE, base_pressure, |r| {
                 let share = 0.25 * r.h / r.values.number(THICKNESS);
                 share * base_pressure(r)
             })
             .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
-        Gate::truth("no-growth", "GIMP and quadratic splines, all but fbar-recursive: the largest kinetic energy of the last third is at most twice that of the middle third, and rounding")
+        Gate::truth("no-growth", "GIMP and quadratic splines, all but fbar-recursive: peak kinetic energy of the last third at most twice that of the middle third, and rounding")
             .when(is_sound)
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
@@ -108,11 +108,11 @@ fn checks() -> Vec<Check> {
             .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
-        Gate::known_limit("cubic-out-of-balance", "cubic splines: a particle is farther from its place than that")
+        Gate::known_limit("cubic-out-of-balance", "cubic splines: distance of a particle from rest above the bound of stays")
             .when(|r| r.basis() == Bspline3)
             .above(DISPLACEMENT_LINF, interpolation)
             .because("two particles a direction don't integrate cubic splines at a foot that a stress acts on"),
-        Gate::known_limit("pressure-relaxes", "fbar-recursive: the pressure at the foot is its mean over the height, half of what it should be, within a twentieth")
+        Gate::known_limit("pressure-relaxes", "fbar-recursive: pressure at the foot within a twentieth of its mean over the height, half the exact value")
             .when(|r| r.remedy() == FbarRecursive)
             .within(BASE_PRESSURE, |r| 0.5 * base_pressure(r), |r| 0.05 * base_pressure(r))
             .because("Eq. (26) diffuses J̄ until it is the same everywhere, in 10⁴ steps here; shear takes over what it leaves"),

@@ -223,11 +223,11 @@ fn checks() -> Vec<Check> {
             |r| 0.5 * compression(r) * r.h,
         ),
         motion_lost(|_| Some("the phase is lost, or particles have left their order, as only what Π sees is stiff (docs/modes.md)")),
-        Gate::known_limit("locks", "none with GIMP: the frequency is off by more than ½ (kh)² + 1 %")
+        Gate::known_limit("locks", "none with GIMP: frequency off by more than ½ (kh)² + 1 %")
             .when(|r| r.remedy() == RemedyName::None && r.basis() == Gimp && moves(&r.values))
             .above(FREQUENCY_ERROR, |r| tolerance(r))
             .because("every particle's volume is a constraint"),
-        Gate::truth("frequency", "F̄ over two periods, with GIMP and a stiffness of the unseen above the pressure over twenty as well, and implicit with quadratic splines, about what its steps make of it: relative error of the frequency at most ½ (kh)² + 1 %, the error of the discretisation and of the linear theory of slight compressibility")
+        Gate::truth("frequency", "F̄ over two periods (twenty for GIMP with an unseen stiffness above the pressure), implicit quadratic splines against their steps' frequency: relative error at most ½ (kh)² + 1 %")
             .when(|r| {
                 let averaged = r.remedy() != RemedyName::None && (is_short(r) || is_held(r) && r.basis() == Gimp);
                 (averaged || r.remedy() == RemedyName::None || r.is_implicit() && r.basis() == Bspline2) && moves(&r.values)
@@ -235,11 +235,11 @@ fn checks() -> Vec<Check> {
             .unless(frequency_unknown)
             .within(FREQUENCY_RATIO, |r| slowed(r, frequency(&r.values)), |r| tolerance(r))
             .because("½ (kh)² + 1 %"),
-        Gate::truth("order", "fbar-consistent with GIMP, without relaxation, that holds more than the pressure: rms ln(J/J̄) at the end at most one over the pressures held")
+        Gate::truth("order", "fbar-consistent with GIMP, no relaxation, hold above the pressure: final rms ln(J/J̄) at most one over the pressures held")
             .when(|r| is_held(r) && r.basis() == Gimp)
             .at_most(LOG_JACOBIAN_GAP, |r| 1.0 / r.values.number(HOLD))
             .because("the pressure drives it with no more than itself"),
-        Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: kinetic + stored − gravity's energy never above its start by more than 2 % of the largest kinetic energy: the offset by half a step and the sound of the start")
+        Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy exceeds its start by at most 2 % of the peak kinetic energy, the half-step offset and the initial sound")
             .when(|r| matches!(r.remedy(), RemedyName::None | FbarConsistent) && r.rule() != Some(RuleName::Newmark))
             .at_most(ENERGY_GAIN, |_| 0.02)
             .because("the force takes what is stored"),

@@ -200,18 +200,18 @@ fn checks() -> Vec<Check> {
         mass(),
         rests("without an amplitude nothing moves: every number stays zero", |_| 0.0),
         motion_lost(|_| Some("after N periods the phase is off by 2πN times the error of the frequency, which is judged")),
-        Gate::known_limit("fades", "fbar-recursive: nine tenths of the energy are gone after a hundred periods")
+        Gate::known_limit("fades", "fbar-recursive: nine tenths or more of the energy lost after a hundred periods")
             .when(|r| r.remedy() == FbarRecursive && moves(&r.values))
             .above(ENERGY_LOSS, |_| 0.9)
             .because("Eq. (26) diffuses J with D = ½ s² h²/Δt: the strain fades at the rate D k²"),
-        Gate::known_limit("cubic-walls-damp", "cubic splines with F̄ but fbar-recursive: less than half of the amplitude is left after a hundred periods")
+        Gate::known_limit("cubic-walls-damp", "cubic splines with F̄ except fbar-recursive: less than half of the amplitude left after a hundred periods")
             .when(|r| is_cubic(r) && !feeds_null_space(r) && moves(&r.values))
             .at_most(AMPLITUDE_RATIO, |_| HALF)
             .because("the lumped mass of cubics next to a wall has its centre off the node"),
         Gate::truth("frequency", "relative error of the frequency at most ½ (kh)², except with fbar-recursive and waves of cubic splines with F̄ damped below a twentieth")
             .when(|r| r.remedy() != FbarRecursive && moves(&r.values))
             .own(|r| vec![of_frequency(r)]),
-        Gate::truth("no-energy-gain", "kinetic + stored energy never above its start by more than a share of the largest kinetic energy: explicit ½ ωΔt, the offset by half a step of velocities and positions, remedies that store what their force takes; midpoint the strain kA")
+        Gate::truth("no-energy-gain", "energy above its start, over peak kinetic energy: explicit with a storing remedy at most ½ ωΔt, the half-step offset of velocities; midpoint at most the strain kA")
             .each([
                 Demand::at_most(ENERGY_GAIN, |r: &Run<()>| 0.5 * (frequency(&r.values) * r.dt()))
                     .when(|r| r.rule().is_none() && matches!(r.remedy(), RemedyName::None | FbarConsistent))
@@ -220,13 +220,13 @@ fn checks() -> Vec<Check> {
                     .when(|r| r.rule() == Some(RuleName::Midpoint)),
             ])
             .because("the rule gives nothing to a linear body"),
-        Gate::truth("lumped-mass-takes", "midpoint: the energy at the end is that of the start less what the lumped mass took, within the strain kA of the largest kinetic energy")
+        Gate::truth("lumped-mass-takes", "midpoint: final energy equal to the initial one less the lumped-mass loss, within the strain kA of the largest kinetic energy")
             .when(|r| r.rule() == Some(RuleName::Midpoint))
             .within(ENERGY_END, |r| -r.metric(LUMPING_LOSS), |r| strain(r))
             .because("the rule gives and takes none of a linear body: docs/implicit.md, Eq. (21)"),
-        Gate::truth("steps-slow", "implicit: the frequency over that of the shortest steps is what 2 arctan(½ ωΔt)/ωΔt makes of it, within (kh)² of what it takes and 10⁻⁴")
+        Gate::truth("steps-slow", "implicit: frequency over that of the shortest steps equal to 2 arctan(½ ωΔt)/ωΔt, within (kh)² of the deviation and 10⁻⁴")
             .study(steps_slow),
-        Gate::truth("averaging-softens", "linear functions, GIMP and quadratic splines: the square of the frequency over that without a remedy is 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent, within (kh)³/(2π): the average acts once, with the spread of the basis")
+        Gate::truth("averaging-softens", "linear functions, GIMP, quadratic splines: squared frequency over that without remedy, within (kh)³/(2π), 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent")
             .when(|r| is_sound(r.remedy()) && !feeds_null_space(r) && softening(r.basis(), r.remedy()).is_some())
             .pairs(|soft, hard| same_but_scheme(soft, hard) && hard.remedy() == RemedyName::None && hard.basis() == soft.basis())
             .within(

@@ -11,19 +11,19 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Bench {
-    /// Rounds, after one that isn't measured
+    /// Number of measured rounds, after one unmeasured
     #[arg(long, default_value_t = 7, value_parser = RangedU64ValueParser::<usize>::new().range(1..=1000))]
     rounds: usize,
-    /// Numbers of threads, as 1,2 (one and all cores if not given)
+    /// Numbers of threads, as 1,2 (default: one and all cores)
     #[arg(long, value_delimiter = ',', value_parser = threads())]
     threads: Vec<usize>,
-    /// Measure these alone, as newton,laws (all if not given); `scaling` is the cost over the number of particles
+    /// Groups to measure, as newton,laws (default: all); `scaling` is the cost over the number of particles
     #[arg(long, value_delimiter = ',', value_parser = PossibleValuesParser::new(bench::GROUPS))]
     only: Vec<String>,
-    /// Compare with other programs
+    /// Other programs to compare with
     #[arg(long, value_parser = ["taichi"])]
     peers: Option<String>,
-    /// The Python interpreter that has the peers' packages
+    /// Python interpreter with the peers' packages
     #[arg(long, default_value = "python3", requires = "peers")]
     python: PathBuf,
     /// Folder of the tables and pictures
@@ -50,7 +50,7 @@ impl Bench {
     }
 }
 
-/// One thread and the others that are asked for, all cores if none is.
+/// One thread and the requested numbers, all cores by default.
 fn compared_threads(asked: Vec<usize>) -> Vec<usize> {
     let mut threads = match asked.is_empty() {
         true => vec![or_all_cores(None)],

@@ -13,22 +13,22 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Bless {
-    /// The case
+    /// Name of the case
     #[arg(value_parser = case(), hide_possible_values = true)]
     case: &'static Case,
-    /// Why the results have changed
+    /// Reason for the change of the results
     #[arg(long)]
     reason: String,
-    /// The folder that `verify` has written, or those of all shards
+    /// Output folder of `verify`, or those of all shards
     #[arg(long, default_value = "reports/latest", num_args = 1..)]
     from: Vec<PathBuf>,
-    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    /// Folder of the goldens (default: ./golden, or that of the source checkout)
     #[arg(long)]
     golden: Option<PathBuf>,
-    /// Bless this quantity although it is doubtful
+    /// Accept this quantity despite doubts
     #[arg(long, value_name = "METRIC")]
     allow: Vec<String>,
-    /// Runs side by side (as many as there are cores if not given)
+    /// Number of runs side by side (default: number of cores)
     #[arg(long, value_parser = threads())]
     pub(super) threads: Option<usize>,
 }

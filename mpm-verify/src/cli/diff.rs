@@ -9,11 +9,11 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Diff {
-    /// The old report
+    /// Folder of the old report
     old: PathBuf,
-    /// The new report
+    /// Folder of the new report
     new: PathBuf,
-    /// Folder for the comparison with its pictures (old | new | difference)
+    /// Output folder of the comparison with its pictures (old | new | difference)
     #[arg(long)]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -13,7 +13,7 @@ pub(crate) struct List {
     /// List the runs of this tier
     #[arg(long, value_parser = tier())]
     tier: Option<Tier>,
-    /// As text or as JSON
+    /// Output format
     #[arg(long, default_value = "text", value_parser = ["text", "json"])]
     format: String,
 }
@@ -33,10 +33,10 @@ impl List {
 
 #[derive(Args)]
 pub(crate) struct Explain {
-    /// The case
+    /// Name of the case
     #[arg(value_parser = case(), hide_possible_values = true)]
     case: &'static Case,
-    /// Say it as JSON
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }
@@ -53,15 +53,15 @@ impl Explain {
 
 #[derive(Args)]
 pub(crate) struct Exact {
-    /// The solution
+    /// Name of the solution
     name: String,
-    /// Reference coordinates (m), as many as the motion has dimensions
+    /// Reference coordinates (m), one per dimension of the motion
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     at: String,
     /// Time (s)
     #[arg(long, allow_hyphen_values = true)]
     time: String,
-    /// Change a parameter
+    /// Value of a parameter, in place of its default
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
 }
@@ -76,7 +76,7 @@ impl Exact {
 
 #[derive(Args)]
 pub(crate) struct Completions {
-    /// The shell
+    /// Name of the shell
     shell: Shell,
 }
 

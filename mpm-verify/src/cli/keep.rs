@@ -16,7 +16,7 @@ use std::path::PathBuf;
 pub(crate) struct Keep {
     /// Folder of the report
     report: PathBuf,
-    /// Folder that has nightly/results.csv and history.csv
+    /// Folder of nightly/results.csv and history.csv
     #[arg(long, default_value = "reports")]
     into: PathBuf,
 }
@@ -32,16 +32,16 @@ impl Keep {
 
 #[derive(Args)]
 pub(crate) struct Tables {
-    /// Change nothing; name the tables that are stale, and fail if there are any
+    /// List stale tables, change nothing, and fail if any is stale
     #[arg(long)]
     check: bool,
-    /// Folder that has README.md, docs and reports
+    /// Folder of README.md, docs and reports
     #[arg(long, default_value = ".")]
     root: PathBuf,
 }
 
 impl Tables {
-    /// Fills the tables of the pages, or, to check, names those that are stale.
+    /// Fills the tables of the pages, or with `check` lists the stale ones.
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let mut code = ExitCode::Good;
         for page in Page::all(&self.root)? {
@@ -61,10 +61,10 @@ impl Tables {
 
 #[derive(Args)]
 pub(crate) struct Pictures {
-    /// The folder that `verify` has written, or those of all shards
+    /// Output folder of `verify`, or those of all shards
     #[arg(long, value_name = "FOLDER", num_args = 1..)]
     from: Vec<PathBuf>,
-    /// Folder that has docs and reports
+    /// Folder of docs and reports
     #[arg(long, default_value = ".")]
     root: PathBuf,
 }
@@ -78,10 +78,10 @@ impl Pictures {
 
 #[derive(Args)]
 pub(crate) struct Complete {
-    /// Which runs
+    /// Tier of the planned runs
     #[arg(long, default_value = "nightly", value_parser = tier())]
     tier: Tier,
-    /// The rows that `keep` has written
+    /// File of the rows stored by `keep`
     #[arg(long, default_value = "reports/nightly/results.csv")]
     rows: PathBuf,
 }

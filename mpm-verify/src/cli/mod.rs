@@ -22,9 +22,9 @@ use std::time::Duration;
 
 /// Verification bench of the locking-free material point method.
 ///
-/// Begin with `mpm-verify list`, `mpm-verify run cook --out out` or `mpm-verify verify --tier quick`. Exit codes: 0 all
-/// good, 1 a check against the truth failed, 2 usage or input, 3 drift from the goldens only, 4 a run broke down and was
-/// not known to.
+/// Start with `mpm-verify list`, `mpm-verify run cook --out out` or `mpm-verify verify --tier quick`. Exit codes: 0
+/// success, 1 a check against the truth failed, 2 usage or input error, 3 drift from the goldens only, 4 unexpected
+/// breakdown of a run.
 #[derive(Parser)]
 #[command(version, max_term_width = 100, arg_required_else_help = true)]
 pub(crate) struct Cli {
@@ -43,10 +43,10 @@ fn memory(text: &str) -> Result<f64, String> {
 /// Verbosity.
 #[derive(Args, Clone, Copy)]
 pub(crate) struct Told {
-    /// Say nothing but the verdict
+    /// Print the verdict only
     #[arg(long, short, conflicts_with = "json")]
     pub(crate) quiet: bool,
-    /// Say it as JSON, without progress
+    /// Print JSON, without progress
     #[arg(long)]
     pub(crate) json: bool,
 }
@@ -60,46 +60,46 @@ impl Told {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
-    /// List the cases: what they are, their runs in each tier, what they cost
+    /// List the cases: titles, runs in each tier, cost
     List(explain::List),
-    /// Parameters, schemes, levels, metrics, checks, references and limits of a case
+    /// Print parameters, schemes, levels, metrics, checks, references and limits of a case
     Explain(explain::Explain),
-    /// Run one case once, judge it and, with --out, draw it
+    /// Run a case once, judge it and, with --out, draw it
     Run(run::Run),
-    /// Run a scene of one's own that a file describes and, with --out, draw it
+    /// Run your own scene from a file and, with --out, draw it
     Scene(run::Scene),
-    /// Judge the result of another code, beside our runs
+    /// Judge the result of another code and compare it with our runs
     Score(score::Score),
-    /// Write what another code needs to solve a case: particles, parameters, reference, a form for `score`
+    /// Write the input of a case for another code: particles, parameters, reference, a form for `score`
     Export(score::Export),
     /// Run a tier of cases, judge them and write the report
     Verify(verify::Verify),
-    /// Judge again what `verify` or `run` has left and rebuild the report, without simulating
+    /// Judge the runs of `verify` or `run` again and rebuild the report, without simulating
     Report(verify::Report),
-    /// Keep a row of every run of a night's report, and its trends
+    /// Store one row per run of a night's report, and its trends
     Keep(keep::Keep),
-    /// Fill the tables of results in README and docs from reports/nightly/results.csv
+    /// Fill the result tables in README and docs from reports/nightly/results.csv
     Tables(keep::Tables),
-    /// Draw the pictures of README and docs from the rows that are kept and from finished runs
+    /// Draw the pictures of README and docs from stored rows and finished runs
     ///
     /// Pictures that need other runs are listed and left unchanged.
     Pictures(keep::Pictures),
-    /// Name the runs of a tier that no kept row is of (exit code 2), and the rows that another program made
+    /// List planned runs without a stored result (exit code 2) and results from other program versions
     Complete(keep::Complete),
-    /// Accept drift: take what `verify` has left as the new golden (refused while the truth is missed)
+    /// Accept changed results as the new golden (refused while a check against the truth fails)
     Bless(bless::Bless),
     /// Compare two report folders: numbers, verdicts, pictures
     Diff(diff::Diff),
     /// Evaluate an exact solution at a reference point, as JSON
     Exact(explain::Exact),
-    /// Measure speed: workloads, problems and laws take turns; with --peers, other programs with them
+    /// Measure speed of workloads, problems and laws in turns; with --peers, of other programs too
     Bench(bench::Bench),
-    /// Print what makes a shell complete the program's commands, options and names
+    /// Print a shell completion script
     Completions(explain::Completions),
 }
 
 impl Command {
-    /// Number of threads asked for by a command that runs simulations.
+    /// Requested number of threads of a command that runs simulations.
     pub(crate) fn threads(&self) -> Option<usize> {
         match self {
             Self::Run(command) => command.threads,
@@ -146,7 +146,7 @@ fn saving(seconds: u64, resume: bool) -> Saving {
     Saving { every: Duration::from_secs(seconds), resume }
 }
 
-/// One of some names, as what it stands for.
+/// Parser of one of `names` into its value.
 fn one_of<T, E>(names: &'static [&'static str], parse: fn(&str) -> Result<T, E>) -> impl TypedValueParser<Value = T>
 where
     T: Clone + Send + Sync + 'static,
@@ -170,13 +170,13 @@ fn scored_cases() -> PossibleValuesParser {
     PossibleValuesParser::new(cases::scored().map(|(case, _)| case.name))
 }
 
-/// More than four times as many threads as cores are surely a slip.
+/// Number of threads, at most four per core; more is almost certainly a typo.
 fn threads() -> RangedU64ValueParser<usize> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     RangedU64ValueParser::new().range(1..=4 * cores as u64)
 }
 
-/// Schemes by their names, of which shells complete those of all cases.
+/// Parser of scheme names; shells complete the schemes of all cases.
 #[derive(Clone)]
 struct Schemes;
 

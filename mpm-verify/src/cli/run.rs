@@ -21,48 +21,47 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub(crate) struct Run {
-    /// The case
+    /// Name of the case
     #[arg(value_parser = case(), hide_possible_values = true)]
     case: &'static Case,
-    /// Scheme by its name, as `explain` and records write it, in place of its parts
+    /// Full name of the scheme, as in `explain` and records (replaces its parts)
     #[arg(long, value_parser = Schemes, hide_possible_values = true,
             conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
     scheme: Option<Scheme>,
-    /// Solver (explicit if the case has it)
+    /// Solver (default: explicit, if the case has it)
     #[arg(long, value_parser = Scheme::SOLVERS.to_vec())]
     solver: Option<String>,
-    /// Basis functions (gimp; of a quasi-static run those of its first in the case)
+    /// Basis functions (default: gimp, or those of the case's first scheme with that solver)
     #[arg(long, value_parser = one_of(BasisName::NAMES, BasisName::parse))]
     basis: Option<BasisName>,
-    /// Locking remedy (default: fbar-consistent, or the first remedy of the case)
+    /// Locking remedy (default: fbar-consistent, or that of the case's first scheme with that solver)
     #[arg(long, value_parser = one_of(RemedyName::NAMES, RemedyName::parse))]
     remedy: Option<RemedyName>,
-    /// Transfer of an explicit run (flip)
+    /// Transfer of an explicit run (default: flip)
     #[arg(long, value_parser = one_of(TransferName::NAMES, TransferName::parse))]
     transfer: Option<TransferName>,
-    /// Level of refinement (the coarsest if not given)
+    /// Level of refinement (default: the coarsest)
     #[arg(long)]
     level: Option<String>,
-    /// Change a parameter
+    /// Value of a parameter, in place of its default
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
     /// Perturb every initial coordinate by one unit in the last place
     #[arg(long)]
     perturb: bool,
-    /// Folder for record, series, particles, VTU and pictures
+    /// Output folder for record, series, particles, VTU and pictures
     #[arg(long, group = "folder")]
     out: Option<PathBuf>,
-    /// Resume from this folder's checkpoint of the same run, or start without one; bit-identical results (replaces
-    /// --out)
+    /// Resume from this folder's checkpoint, or start; bit-identical results (replaces --out)
     #[arg(long, value_name = "DIR", group = "folder")]
     resume: Option<PathBuf>,
     /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
     checkpoint_every: u64,
-    /// Threads (all cores if not given)
+    /// Number of threads (default: all cores)
     #[arg(long, value_parser = threads())]
     pub(super) threads: Option<usize>,
-    /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+    /// Memory limit of the scene at its start, in GiB (default: the available memory)
     #[arg(long, value_name = "GIB", value_parser = memory)]
     memory: Option<f64>,
     #[command(flatten)]
@@ -88,7 +87,7 @@ impl Run {
         run_one(case, &spec, place, resources, self.told)
     }
 
-    /// The scheme of the parts that are given, those of the case's own in place of the others.
+    /// The scheme of the given parts, with the case's defaults for the others.
     fn scheme_of_parts(&self) -> Result<Scheme, Error> {
         let own = self.case.default_scheme(self.solver.as_deref());
         let solver = self.solver.as_deref().unwrap_or(own.solver());
@@ -111,21 +110,21 @@ impl Run {
 
 #[derive(Args)]
 pub(crate) struct Scene {
-    /// The scene file, in TOML: docs/reference/scene-files.md
+    /// Scene file in TOML: docs/reference/scene-files.md
     file: PathBuf,
-    /// Folder for record, series, particles, VTU and pictures
+    /// Output folder for record, series, particles, VTU and pictures
     #[arg(long, group = "folder")]
     out: Option<PathBuf>,
-    /// In place of --out: go on in this folder from the checkpoint that the same scene has left there
+    /// Resume from this folder's checkpoint of the same scene, or start without one (replaces --out)
     #[arg(long, value_name = "DIR", group = "folder")]
     resume: Option<PathBuf>,
     /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
     checkpoint_every: u64,
-    /// Refuse a scene that takes more memory at its start (what the machine has to give if not said)
+    /// Memory limit of the scene at its start, in GiB (default: the available memory)
     #[arg(long, value_name = "GIB", value_parser = memory)]
     memory: Option<f64>,
-    /// Threads (all cores if not given)
+    /// Number of threads (default: all cores)
     #[arg(long, value_parser = threads())]
     pub(super) threads: Option<usize>,
     #[command(flatten)]
@@ -158,8 +157,8 @@ fn memory_of(gib: Option<f64>) -> Option<f64> {
 /// results.
 ///
 /// # Errors
-/// The case does not offer the scheme, the scene takes more bytes of memory than it may, the folder holds another run, or
-/// those of [`judged_run`].
+/// The case does not offer the scheme, the scene exceeds the memory limit, the folder holds another run, or those of
+/// [`judged_run`].
 fn run_one(
     case: &Case,
     spec: &RunSpec,
@@ -183,7 +182,7 @@ fn run_one(
             // A run may have been killed between its record and its pictures.
             single::draw(case, &record, folder)?;
             if told.progress() {
-                say("This run has ended before; there is nothing to resume.\n\n")?;
+                say("The run is already complete; nothing to resume.\n\n")?;
             }
             return tell(case, &record, told);
         }
@@ -210,7 +209,7 @@ fn run_one(
             say(names.map(|name| format!("Picture: {name}\n")).collect::<String>())?;
         }
     } else if told.progress() {
-        say("Nothing is kept or drawn: --out DIR does.\n")?;
+        say("No files written; use --out DIR to keep results and pictures.\n")?;
     }
     drop(held);
     tell(case, &record, told)

@@ -15,9 +15,9 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Score {
-    /// Folder with score.json and the tables that it names: docs/how-to/score.md
+    /// Folder with score.json and its tables: docs/how-to/score.md
     folder: PathBuf,
-    /// Folder for the verdicts as a page and as JSON
+    /// Output folder for the verdicts as a page and as JSON
     #[arg(long)]
     out: Option<PathBuf>,
     #[command(flatten)]
@@ -44,16 +44,16 @@ impl Score {
 
 #[derive(Args)]
 pub(crate) struct Export {
-    /// The case
+    /// Name of the case
     #[arg(value_parser = scored_cases())]
     case: String,
-    /// Level of refinement (the coarsest if not given)
+    /// Level of refinement (default: the coarsest)
     #[arg(long)]
     level: Option<String>,
-    /// Change a parameter
+    /// Value of a parameter, in place of its default
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
-    /// Folder for it
+    /// Output folder
     #[arg(long)]
     out: PathBuf,
 }

@@ -21,17 +21,16 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 pub(crate) struct Verify {
-    /// The cases (all if none is given)
+    /// Names of the cases (default: all)
     #[arg(value_parser = case(), hide_possible_values = true)]
     cases: Vec<&'static Case>,
-    /// Which runs
+    /// Tier of the runs
     #[arg(long, default_value = "pr", value_parser = tier())]
     tier: Tier,
-    /// Make only the i-th of n shares of the runs; `report` puts the shares together
+    /// Make only the i-th of n shares of the runs; `report` merges the shares
     #[arg(long, value_name = "I/N", value_parser = Shard::parse, default_value = "1/1", hide_default_value = true)]
     shard: Shard,
-    /// Keep the runs that are there already, if this very program made them, and go on with those that
-    /// it has left a checkpoint of
+    /// Keep finished runs made by this very program, and resume from its checkpoints
     #[arg(long)]
     resume: bool,
     /// Checkpoint interval of every run in wall-clock seconds (0: after every row of its series)
@@ -40,13 +39,13 @@ pub(crate) struct Verify {
     /// Folder of the report
     #[arg(long, default_value = "reports/latest")]
     out: PathBuf,
-    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    /// Folder of the goldens (default: ./golden, or that of the source checkout)
     #[arg(long)]
     golden: Option<PathBuf>,
-    /// Runs side by side (as many as there are cores if not given)
+    /// Number of runs side by side (default: number of cores)
     #[arg(long, value_parser = threads())]
     pub(super) threads: Option<usize>,
-    /// Refuse scenes that take more memory at their start, side by side (not asked if not said)
+    /// Memory limit of concurrent scenes at their start, in GiB (default: none)
     #[arg(long, value_name = "GIB", value_parser = memory)]
     memory: Option<f64>,
     #[command(flatten)]
@@ -88,7 +87,7 @@ fn tell_shard(plan: &Plan, records: &[Record], told: Told) -> Result<ExitCode, E
         say(describe::record(cases::find(&record.case)?, record) + "\n")?;
     }
     say(format!(
-        "shard {} of tier {}: {} runs; `mpm-verify report` with the folders of all {} shards judges them together\n",
+        "shard {} of tier {}: {} runs; judge all {} shards together with `mpm-verify report FOLDERS`\n",
         plan.shard,
         plan.tier,
         records.len(),
@@ -99,19 +98,19 @@ fn tell_shard(plan: &Plan, records: &[Record], told: Told) -> Result<ExitCode, E
 
 #[derive(Args)]
 pub(crate) struct Report {
-    /// The folder, or those of all shards
+    /// Folder of the runs, or those of all shards
     #[arg(required = true)]
     folders: Vec<PathBuf>,
-    /// Folder of the report (that of the runs if there is one only)
+    /// Output folder (default: that of the runs, if it is a single one)
     #[arg(long)]
     out: Option<PathBuf>,
-    /// Folder of the goldens (./golden, else that of the checkout that the program was built from)
+    /// Folder of the goldens (default: ./golden, or that of the source checkout)
     #[arg(long)]
     golden: Option<PathBuf>,
-    /// Add this night (YYYY-MM-DD) to the report's history
+    /// Date of the night (YYYY-MM-DD) to add to the report's history
     #[arg(long, value_name = "DATE", requires = "commit")]
     night: Option<String>,
-    /// The commit of that night
+    /// Commit of that night
     #[arg(long, requires = "night")]
     commit: Option<String>,
     #[command(flatten)]
@@ -124,7 +123,7 @@ impl Report {
             (Some(out), _) => out,
             (None, [folder]) => folder.clone(),
             (None, _) => {
-                return Err(Error::Input("several folders: --out must say where the report goes".to_owned()));
+                return Err(Error::Input("several folders need --out for the report".to_owned()));
             }
         };
         let night = self.night.zip(self.commit);

@@ -46,7 +46,7 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
 /// A case that is not known.
 pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String, Error> {
     let summary = Summary::new("", studies);
-    let mut document = Document::new("Verification, all runs that are kept");
+    let mut document = Document::new("Verification, all kept runs");
     // A row counts only checks that judge.
     document.paragraph(lines(&summary.counts.to_string(), 2));
     document.paragraph(Text::marked("The map of schemes and cases: `docs/hard-cases.md`."));

@@ -63,22 +63,22 @@ pub(super) fn checks() -> Vec<Check> {
         .when(move |b| known(b).is_some())
     });
     vec![
-        Check::bookkeeping("mass", "the mass of a metre of beam, 300 kg, to rounding")
+        Check::bookkeeping("mass", "mass of the beam 300 kg per metre, to rounding")
             .within(MASS, move |_| mass, move |_| 1e-9 * mass)
             .because("density times the volume of the beam"),
-        Check::truth("reaction", "the clamp bears the weight, as far as the residual of Newton's method allows")
+        Check::truth("reaction", "reaction of the clamp equal to the weight within the residual of Newton's method")
             .when(|b| !b.is_unstable())
             // At a stabilised node on the clamp the penalty bears its share.
             .at_most(REACTION_ERROR, |b| 10.0 * b.residual())
             .because("equilibrium: the residual is at most the tolerance of the loads, or rounding"),
-        Check::truth("force-ratio", "the out-of-balance force ratio of every step, the paper's Eq. (37), is at most the tolerance, or what rounding of the stresses leaves")
+        Check::truth("force-ratio", "out-of-balance force ratio of every step, the paper's Eq. (37), at most the tolerance or the rounding of the stresses")
             .at_most(FORCE_RATIO, |b| b.residual())
             .because("the criterion of convergence"),
-        Check::truth("newton", "stabilised runs of ten steps or more: at most seven Newton iterations a step, as four squarings lead from a tenth to the tolerance, and three more lead there")
+        Check::truth("newton", "stabilised runs of ten steps or more: at most 7 Newton iterations a step, 3 to reach quadratic convergence, 4 from 10⁻¹ to the tolerance")
             .when(|b| b.load_steps >= 10 && !b.is_unstable())
             .at_most(NEWTON_ITERATIONS, |b| 7.0 * f64::from(b.load_steps))
             .because("quadratic convergence with the exact tangent"),
-        Check::truth("corner", "quadratic splines, ghost penalty or extension, 16 particles a cell: u_y of the corner within 0.6, 0.25, 0.1 and 0.05 % of the finite elements at h = 0.1, 0.05, 0.025 and 0.0125 m")
+        Check::truth("corner", "u_y of the corner within 0.6, 0.25, 0.1, 0.05 % of the finite elements at h = 0.1, 0.05, 0.025, 0.0125 m")
             .unless(|b| b.solution().err())
             .unless(|b| b.asked().is_none().then(|| "no error is asked for at this level".to_owned()))
             .within(
@@ -96,16 +96,16 @@ pub(super) fn checks() -> Vec<Check> {
             .because("finite elements of degree 5, this project; tolerance: the point moved by a cell"),
         Check::truth("falls", "stabilised quadratic splines, 16 particles a cell: the errors of u_y and of these stresses fall from level to level").study(falls),
         Check::truth("steps", "stabilised quadratic splines at h = 0.05 m: 5 to 160 load steps change u_y of the corner by less than its error").study(steps),
-        Check::known_limit("q8-diverges", "serendipity elements: the error is above 2 % at every level and no smaller at the finest than at the coarsest").study(diverges),
-        Check::known_limit("coarse-bending", "all but quadratic splines with a stabilisation and 16 particles a cell: the error of u_y of the corner exceeds theirs")
+        Check::known_limit("q8-diverges", "serendipity elements: error above 2 % at every level, at the finest no smaller than at the coarsest").study(diverges),
+        Check::known_limit("coarse-bending", "all but stabilised quadratic splines with 16 particles a cell: error of u_y of the corner beyond the tolerance of corner, where it is")
             .when(|b| !b.is_splines() && b.asked().is_some_and(|asked| b.metric(CORNER_ERROR) > asked))
             .above(CORNER_ERROR, |b| b.asked().unwrap_or(f64::NAN))
             .because("hats and domains carry bending to lower order; fewer points, or none that are held, integrate it worse"),
-        Check::known_limit("no-stabilisation", "without stabilisation and run to its end: the condition of the scaled stiffness is beyond 10¹²")
+        Check::known_limit("no-stabilisation", "completed runs without stabilisation: condition number of the scaled stiffness above 10¹²")
             .when(|b| b.is_unstable())
             .above(LOG10_CONDITION, |_| BOUND)
             .because("functions at the rim see fewer strains than they have unknowns"),
-        Check::known_limit("linear-update", "jaumann-linear, quadratic splines: the error at 10 load steps is more than 1.5 times that at 20, which is more than 1.5 times that at 40: of first order").study(linear_update),
+        Check::known_limit("linear-update", "jaumann-linear, quadratic splines: first order, each doubling of 10 and 20 load steps divides the error by more than 1.5").study(linear_update),
     ]
 }
 

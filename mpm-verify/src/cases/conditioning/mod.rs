@@ -136,7 +136,7 @@ fn checks() -> Vec<Check> {
     vec![
         Check::truth(
             "mirror",
-            "condition numbers of a place and of its mirror image agree to rounding: n ε times the condition number",
+            "condition numbers of a place and its mirror image agree to rounding: n ε times the condition number",
         )
         .at_most(MIRROR_ERROR, |e| {
             let condition = 10.0_f64.powf(e.metric(COND_UU));
@@ -145,7 +145,7 @@ fn checks() -> Vec<Check> {
         .because("ellipse, particles and both grids are symmetric, and so is the set of places"),
         Check::truth(
             "no-eigenvalue-falls",
-            "the least eigenvalues of displacement and pressure, over all places, do not fall as α grows",
+            "least eigenvalues of displacement and pressure, over all places, never fall as α grows",
         )
         .study(|records| {
             let why = "a penalty is positive semidefinite";
@@ -156,7 +156,7 @@ fn checks() -> Vec<Check> {
         }),
         Check::truth(
             "no-body-bends-more",
-            "the cantilever's deflection changes by nothing without a penalty and by less than nothing with one",
+            "change of the cantilever's deflection zero without a penalty and negative with one",
         )
         .at_most(DEFLECTION_CHANGE, |e| if e.alpha > 0.0 { -ROUNDING } else { ROUNDING })
         .because(WORK),
@@ -168,7 +168,7 @@ fn checks() -> Vec<Check> {
         ),
         Check::known_limit(
             "cuts-spoil-matrices",
-            "GIMP without penalties, forty places: the displacement's condition number varies by more than a decade",
+            "GIMP without penalties, forty places: condition number of the displacement varies by more than a decade",
         )
         .when(|e| e.basis() == Gimp && e.alpha == 0.0 && e.positions >= PLACES)
         .above(spread([COND_UU, COND_UU_LEAST], "spread of log10_cond_uu".to_owned()), |_| 1.0)

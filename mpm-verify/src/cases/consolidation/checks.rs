@@ -22,7 +22,7 @@ pub(super) fn checks() -> Vec<Check> {
             .when(|c| c.volume_rate == Rate::Exact)
             .at_most(MASS_ERROR, balance_error)
             .because("the equations of all nodes add up to the balance of the column"),
-        Check::known_limit("logarithm-loses-water", "logarithmic rate: every step makes ½ V (J̃ − 1)² of water, to within the next term of the series")
+        Check::known_limit("logarithm-loses-water", "logarithmic rate: every step creates ½ V (J̃ − 1)² of water, within the next term of the series")
             .when(|c| c.volume_rate == Rate::Logarithmic)
             .within(MASS_ERROR, |c| c.metric(RATE_LOSS), |c| {
                 let (loss, change) = (c.metric(RATE_LOSS), c.metric(VOLUME_STEP));
@@ -30,19 +30,19 @@ pub(super) fn checks() -> Vec<Check> {
                 next + balance_error(c)
             })
             .because("V (J̃ ln J̃ − J̃ + 1), docs/poromechanics.md; |J̃ − 1|/3 of it and more is the next term"),
-        Check::truth("settlement", "without ghost penalties: the settlement at the tabulated T from 0.1 on is that of the exact solution within h/H, a column of a cell more or less, and what the steps are off by")
+        Check::truth("settlement", "without ghost penalties: settlement at the tabulated T ≥ 0.1 exact within h/H, a cell of the column, and the error of the steps")
             .unless(not_comparable)
             .at_most(SETTLEMENT_ERROR, |c| c.h / HEIGHT + c.errors_of_steps()[0])
             .because(AGAINST_EXACT),
-        Check::truth("base-pressure", "without ghost penalties: the pressure at the base over the load agrees with the exact solution within h/H and the error of the steps")
+        Check::truth("base-pressure", "without ghost penalties: pressure at the base over the load exact within h/H and the error of the steps")
             .unless(not_comparable)
             .at_most(BASE_PRESSURE_ERROR, |c| c.h / HEIGHT + c.errors_of_steps()[1])
             .because(AGAINST_EXACT),
-        Check::truth("order-space", "GIMP, finest three levels where two cells of the pressure and more are in the layer at the top: order in h of settlement and base pressure at least 2 − 0.15")
+        Check::truth("order-space", "GIMP, three finest levels with at least two pressure cells in the top layer: settlement and base pressure of order in h at least 2 − 0.15")
             .study(orders),
-        Check::truth("richardson", "GIMP: the settlement at T = 0.1 of the finest level is within the grid convergence index of the exact solution in space of the same steps")
+        Check::truth("richardson", "GIMP: settlement at T = 0.1 of the finest level exact in space within the grid convergence index")
             .study(richardson),
-        Check::truth("order-time", "order in the number of steps of the settlement at T = 2, of three refinements each twice the one before, at least 1 − 0.15")
+        Check::truth("order-time", "three refinements, each twice the one before: settlement at T = 2 of order in the number of steps at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| r.changes_none_but(&["refine"]));
                 let orders = orders_in_time(own, |r| number(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
@@ -51,7 +51,7 @@ pub(super) fn checks() -> Vec<Check> {
             }),
         // A domain of h/2 that sinks by s ≤ S has the share 2 s/h in the next cell, whose strain is another by h ε′: settlements S
         // differ by 2 ∫ s ε′ dz, at most 2 S q/M₀.
-        Check::truth("small-load", "0.003 M₀, where no particle crosses a cell: linear functions and GIMP of the same run differ by no more than 2 q/M₀: what domains see of the next cell")
+        Check::truth("small-load", "0.003 M₀, no particle crosses a cell: linear functions and GIMP of the same run differ by at most 2 q/M₀, the reach of domains into the next cell")
             .when(|c| c.basis() == Linear && c.record.status == Status::Ok && c.load == SMALL)
             .pairs(|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()))
             .at_most(

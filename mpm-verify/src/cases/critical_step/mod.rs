@@ -136,7 +136,7 @@ fn checks() -> Vec<Check> {
     type Check = CheckOf<Step>;
     type Demand = crate::demand::Demand<Step>;
     vec![
-        Check::truth("largest-step", "the largest stable step is that of linear analysis within 2 %, what ten halvings and the growth of noise over the steps leave open; above 0.98 where that is beyond what the program takes")
+        Check::truth("largest-step", "largest stable step that of linear analysis within 2 %, the resolution of ten halvings and noise growth; above 0.98 where the program's limit is smaller")
             .when(|s| s.metric(PREDICTED_CFL) > 0.0 && !s.is_small_cut())
             .each([
                 Demand::above(CRITICAL_CFL, |_| 1.0 - SEEN).when(|s| s.metric(PREDICTED_CFL) > 1.0),
@@ -144,15 +144,15 @@ fn checks() -> Vec<Check> {
                     .when(|s| s.metric(PREDICTED_CFL) <= 1.0),
             ])
             .because("Jury's conditions of the matrices of docs/modes.md, over the waves of the lattice"),
-        Check::truth("offered-step", "aligned, jittered and cut, without a stretch and a viscosity, all but linear functions: the step that time_step=auto takes is stable")
+        Check::truth("offered-step", "aligned, jittered and cut, no stretch, no viscosity, all but linear functions: the step of time_step=auto is stable")
             .when(|s| s.stretch == 1.0 && s.linear_viscosity == 0.0 && s.metric(OFFERED_CFL).is_finite())
             .above(CRITICAL_CFL, |s| s.metric(OFFERED_CFL) * (1.0 - 0.5 * SEEN))
             .because("the stiffness of a particle over its share of the nodes' masses bounds that of all"),
-        Check::known_limit("small-cut", "linear functions with FLIP and no remedy, cut: the largest step is that of a node of its own, √(4ε/(2 − ε)), within 2 % and ε, and vanishes with ε")
+        Check::known_limit("small-cut", "linear functions with FLIP, no remedy, cut: largest step that of an isolated node, √(4ε/(2 − ε)), within 2 % and ε")
             .when(|s| s.is_small_cut() && s.transfer() == TransferName::Flip && s.remedy() == RemedyName::None)
             .within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| (SEEN + s.cut) * s.metric(PREDICTED_CFL))
             .because("the force on a node falls with the slope of its function, its mass with the function"),
-        Check::known_limit("fed-by-mean-stress", "where a mean stress gives a wave a negative stiffness it grows whatever the step, as fast as linear analysis says or faster")
+        Check::known_limit("fed-by-mean-stress", "a wave with a negative stiffness by a mean stress grows at every step, at least as fast as by linear analysis")
             .when(|s| s.metric(FED_CFL).is_finite())
             .at_most(CRITICAL_CFL, |s| s.metric(FED_CFL) * (1.0 + SEEN))
             .because("docs/modes.md: where Π sees no change of volume, a mean stress is all the stiffness there is"),

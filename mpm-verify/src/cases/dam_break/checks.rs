@@ -161,77 +161,77 @@ pub(super) fn checks() -> Vec<Check> {
         Check::bookkeeping("particle-count", "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five")
             .within(Quantity::new("particles", |w: &Water| w.record.work.particles as f64), |w| w.particles(), |_| 0.0)
             .because("Zhao et al. 2023, section 4.3: 3,200 at h = 0.25 m"),
-        Check::bookkeeping("mass", "all: the mass at the end is ρ L H to rounding")
+        Check::bookkeeping("mass", "all: final mass ρ L H to rounding")
             .within(MASS, |w| w.density * LENGTH * DEPTH, |w| ROUNDING * (w.density * LENGTH * DEPTH))
             .because("conservation of mass"),
-        at_rest(Check::truth("base-reaction", "none, fbar-rate, fbar-consistent: the force on the floor, mean over three of the water's longest periods behind the gate, is its weight within 0.1 %, within 0.5 % after a gravity stage"))
+        at_rest(Check::truth("base-reaction", "none, fbar-rate, fbar-consistent: mean force on the floor behind the gate the water's weight within 0.1 %, within 0.5 % after a gravity stage"))
             .within(BASE_REACTION_RATIO, |_| 1.0, |w| w.at_rest())
             .because("weight of the water"),
-        at_rest(Check::truth("gate-force", "none, fbar-rate, fbar-consistent: the mean force on the gate over the same time is ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"))
+        at_rest(Check::truth("gate-force", "none, fbar-rate, fbar-consistent: mean force on the gate ½ ρ g H² within 0.1 %, within 0.5 % after a gravity stage"))
             .within(GATE_FORCE, |w| w.gate_at_rest(), |w| w.at_rest() * w.gate_at_rest())
             .because("hydrostatics"),
         // Averages of averages diffuse the volume by h²/Δt: it takes an exact start and the case's own time step to see it.
-        Check::known_limit("creeps", "fbar-recursive from the exact start, CFL below 0.1: the force on the floor is short of the weight by more than 0.1 %, because the water starts to sink")
+        Check::known_limit("creeps", "fbar-recursive from the exact start, CFL below 0.1: force on the floor below the weight by more than 0.1 %, as the water sinks")
             .when(|w| w.remedy() == FbarRecursive && w.is_exact() && w.has_small_steps())
             .above(Quantity::new(BASE_REACTION_RATIO.name, |w: &Water| 1.0 - w.metric(BASE_REACTION_RATIO)), |w| w.at_rest())
             .because("averages of averages diffuse the volume: docs/column.md"),
-        Check::truth("pressure-profile", "the pressure behind the gate is hydrostatic, rms, within 1 % of that at the floor at h = 0.25 m, elsewhere as h^(3/2)")
+        Check::truth("pressure-profile", "pressure behind the gate hydrostatic, rms within 1 % of the floor's at h = 0.25 m, elsewhere as h^(3/2)")
             .at_most(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("hydrostatics"),
-        Check::known_limit("smoothed-start", "fbar-recursive, fbar-total from the exact start: the pressure is off by more than that after one step: Π(J) ≠ J at floor and surface")
+        Check::known_limit("smoothed-start", "fbar-recursive, fbar-total from the exact start: pressure after one step off by more than pressure-profile allows: Π(J) ≠ J at floor and surface")
             .when(|w| w.smooths() && w.is_exact())
             .above(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("Π takes the mean of J over what is there: at floor and surface that lies to one side"),
-        Check::truth("front", "FLIP: the front is within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")
+        Check::truth("front", "FLIP: front within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")
             .unless(|w| w.front_is_open())
             .at_most(FRONT_RMS_ERROR, |w| w.front_bound())
             .because("inviscid front; a grid resolves no tongue thinner than a cell"),
-        Check::truth("arrival", "FLIP: the front passes x = 6 m − 2h within the time in which the inviscid one crosses a cell")
+        Check::truth("arrival", "FLIP: arrival at x = 6 m − 2h exact within the time in which the inviscid front crosses a cell")
             .unless(|w| w.front_is_open())
             .at_most(ARRIVAL_ERROR, |w| {
                 let passes = passage(TANK - 2.0 * w.h);
                 w.front_bound() / passes.map_or(f64::NAN, |(_, speed)| speed)
             })
             .because("inviscid front; a grid resolves no tongue thinner than a cell"),
-        Check::truth("front-speed", "all: the front is slower than 2 √(g H)")
+        Check::truth("front-speed", "all: front slower than 2 √(g H)")
             .at_most(FRONT_SPEED_MAX, |_| greatest_speed())
             .because("Ritter 1892"),
-        Check::truth("energy-not-gained", "all: kinetic and potential energy and stress work never exceed their start; without APIC, whose affine motion the kinetic energy leaves out, they never grow")
+        Check::truth("energy-not-gained", "all: kinetic and potential energy and stress work never exceed their start, and never grow without APIC, whose affine energy is not counted")
             .each([
                 Demand::at_most(ENERGY_EXCESS, |_| ROUNDING),
                 Demand::at_most(ENERGY_GAIN, |_| ROUNDING).when(|w| w.transfer() != TransferName::Apic),
             ])
             .because("explicit steps with lumped masses take energy from the motion, never give it"),
-        Check::truth("motion-not-gained", "all, but fbar-total and fbar-rate where makes-energy is found: kinetic and potential energy never exceed their start by more than what is stored elastically then")
+        Check::truth("motion-not-gained", "all except makes-energy: kinetic and potential energy exceed their start by at most the elastic energy stored then")
             .when(|w| !w.makes_energy())
             .at_most(MOTION_EXCESS, |w| w.stored())
             .because("the elastic energy of the water at rest"),
-        Check::known_limit("makes-energy", "fbar-total, fbar-rate: wherever they exceed it, because the stress works on a volume that the law does not see. They have to over the 2 s of the case's own flow: with FLIP (but quadratic splines with fbar-rate at h = 0.5 m and CFL 0.3), and with APIC at h = 0.125 m and below")
+        Check::known_limit("makes-energy", "fbar-total, fbar-rate: energy created, as stress does work on a volume the law does not use; required over 2 s with FLIP (except quadratic splines, fbar-rate, h = 0.5 m, CFL 0.3) and APIC at h ≤ 0.125 m")
             .when(|w| w.makes_energy())
             .above(MOTION_EXCESS, |w| w.stored())
             .because(MAKES_ENERGY),
-        Check::truth("dissipation", "all that make no energy: no more kinetic and potential energy is lost than until the water is at rest in the tank")
+        Check::truth("dissipation", "all that make no energy: loss of kinetic and potential energy at most that of water at rest in the tank")
             .when(|w| !w.makes_energy())
             .at_most(MOTION_LOSS, |w| {
                 let (at_start, at_rest) = energies(w.density);
                 1.0 - at_rest / at_start
             })
             .because("water at rest in the tank has two thirds of its energy"),
-        Check::truth("volume", "all: at 0.4 s the particles cover L H within what strips two particles wide resolve")
+        Check::truth("volume", "all: area covered at 0.4 s equal to L H within strips two particles wide")
             .unless(|w| w.metric(COVERED_EARLY).is_nan().then(|| "the run ends before 0.4 s".to_owned()))
             .within(COVERED_EARLY, |_| LENGTH * DEPTH, |w| w.resolved_area())
             .because("conservation of mass of a body that hardly compresses"),
-        Check::known_limit("locked", "none with GIMP: the front is more than a cell behind the inviscid one, rms")
+        Check::known_limit("locked", "none with GIMP: front more than a cell behind the inviscid one, rms")
             .when(|w| !w.is_averaged() && w.basis() == Gimp && w.front_is_open().is_none())
             .above(FRONT_RMS_ERROR, |w| w.front_bound())
             .because("standard MPM locks: Zhao et al. 2023, Figure 12"),
-        Check::truth("front-converges", "F̄ with FLIP: the rms error of the front falls from level to level, with one CFL number")
+        Check::truth("front-converges", "F̄ with FLIP, one CFL number: rms error of the front falls from level to level")
             .study(|records| falls(&finished(records), FRONT_RMS_ERROR)),
-        Check::truth("start-converges", "F̄ with FLIP: the rms error of the pressure behind the gate falls from level to level, with one CFL number")
+        Check::truth("start-converges", "F̄ with FLIP, one CFL number: rms error of the pressure behind the gate falls from level to level")
             .study(|records| falls(&finished(records), PRESSURE_PROFILE_ERROR)),
-        Check::truth("late-converges", "fbar-consistent with FLIP: from level to level, with one CFL number, impulse on the wall and mean centre of mass over 2 s change less, or by less than an ensemble spreads").study(|records| late(&finished(records))),
-        Check::truth("smoother", "F̄: rms and checkerboard of the pressure at 0.4 s are less than half of standard MPM's").study(|records| against_standard(&finished(records))),
-        Check::truth("starts-agree", "all: after a gravity stage the front advances as from the exact start within 0.25 %").study(|records| starts(&finished(records))),
+        Check::truth("late-converges", "fbar-consistent with FLIP, one CFL number: wall impulse and mean centre of mass over 2 s change less from level to level, or within the ensemble spread").study(|records| late(&finished(records))),
+        Check::truth("smoother", "F̄: rms and checkerboard of the pressure at 0.4 s less than half of standard MPM's").study(|records| against_standard(&finished(records))),
+        Check::truth("starts-agree", "all: advance of the front after a gravity stage that from the exact start within 0.25 %").study(|records| starts(&finished(records))),
         Check::truth("time-step", "fbar-consistent with FLIP: a CFL number up to 0.3 moves the front at 0.4 s by less than a tenth of a cell").study(|records| time_steps(&finished(records))),
     ]
 }

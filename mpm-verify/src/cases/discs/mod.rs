@@ -257,10 +257,10 @@ fn checks() -> Vec<Check> {
     type Check = CheckOf<Discs>;
     type Demand = crate::demand::Demand<Discs>;
     vec![
-        Check::bookkeeping("mass", "the particles have the mass of their share of a cell, to rounding")
+        Check::bookkeeping("mass", "mass of every particle that of its share of a cell, to rounding")
             .within(MASS, |d| d.mass_of(d.record.work.particles, d.record.discretisation.ppc), |d| d.record.work.particles as f64 * f64::EPSILON * d.mass_of(d.record.work.particles, d.record.discretisation.ppc))
             .because("density times the volume that is seeded; each of n sums rounds once"),
-        Check::truth("momentum", "all: linear momentum changes by no more than rounding in every step, and with newmark by what Newton's method leaves")
+        Check::truth("momentum", "all: linear momentum constant within the rounding of every step, with newmark within Newton's residual")
             .at_most(MOMENTUM_ERROR, |d| {
                 let left = if d.is_of(Newmark) { d.tolerance } else { 0.0 };
                 (d.steps() * (ROUNDINGS * f64::EPSILON + left)).max(1e-12)
@@ -270,7 +270,7 @@ fn checks() -> Vec<Check> {
             .when(|d| d.is_of(Midpoint) && d.is_head_on() && d.lumped > 0.0 && !d.jumps())
             .at_most(ENERGY_GAIN, |_| NO_GAIN)
             .because("a lumped share takes energy, the rule gives none: docs/implicit.md"),
-        Check::known_limit("linear-gains", "midpoint with linear functions at h = 0.025 m and 100 times the explicit step, head on: energy rises above its start by more than 10⁻⁴")
+        Check::known_limit("linear-gains", "midpoint with linear functions at h = 0.025 m and 100 times the explicit step, head on: energy exceeds its start by more than 10⁻⁴")
             .when(|d| d.is_of(Midpoint) && d.step_factor == StepFactor::Hundred && d.is_head_on() && d.jumps())
             .above(ENERGY_GAIN, |_| NO_GAIN)
             .because("gradients that jump at faces, where a step ends by chance"),
@@ -285,15 +285,15 @@ fn checks() -> Vec<Check> {
             })
             .above(ENERGY_GAIN, |_| GAINED)
             .because("equilibrium at the end of the step with velocities of another place"),
-        Check::truth("mirror", "all but linear functions, whose gradients jump where rounding decides: particles stay mirror images about the centre")
+        Check::truth("mirror", "all but linear functions, whose gradients jump at random by rounding: particles stay mirror images about the centre")
             .when(|d| d.basis() != Linear)
             .at_most(ASYMMETRY, |_| MIRRORED)
             .because("the scene and the lattice are; rounding grows in the collision"),
-        Check::truth("free-flight", "explicit: until a function sees both discs every particle keeps its velocity, to rounding, and its volume; for ever if none does")
+        Check::truth("free-flight", "explicit: velocity (to rounding) and volume of every particle constant until a function sees both discs")
             .when(|d| d.is_explicit())
             .each([FLIGHT_ERROR, FLIGHT_STRAIN].map(|metric| Demand::at_most(metric, |d| d.rounding())))
             .because("functions sum to one and their slopes to zero: a uniform motion has no strain and no force"),
-        Check::truth("exchange", "explicit, not musl: kinetic and stored energy never above their start by more than half of what a step changes the stored one by")
+        Check::truth("exchange", "explicit, not musl: kinetic and stored energy exceed their start by at most half the change of the stored one in a step")
             .when(|d| d.is_explicit() && d.transfer() != Musl)
             .at_most(ENERGY_GAIN, |d| d.exchanged())
             .because("velocities live half a step before places, and transfers only take"),
@@ -301,19 +301,19 @@ fn checks() -> Vec<Check> {
             .when(|d| d.is_explicit())
             .at_most(RESTITUTION, |d| 1.0 + HALF * d.metric(ENERGY_EXCHANGED) + d.rounding())
             .because("the motion of the centres of mass is part of the energy"),
-        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, that of the affine parts with it, is kept to rounding")
+        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, with that of the affine parts, constant to rounding")
             .when(|d| d.transfer() == Apic)
             .at_most(ANGULAR_MOMENTUM_ERROR, |d| d.rounding())
             .because("the affine part carries what a node's arm has, and stresses are symmetric: docs/spin.md"),
-        Check::truth("no-spin", "explicit, head on, all but linear functions: the angular momentum stays zero")
+        Check::truth("no-spin", "explicit, head on, all but linear functions: angular momentum zero")
             .when(|d| d.is_explicit() && d.is_head_on() && d.basis() != Linear)
             .at_most(ANGULAR_MOMENTUM_ERROR, |_| MIRRORED)
             .because("the scene is its own image in the line of motion, which turns angular momentum round"),
-        Check::known_limit("touches-through-the-grid", "explicit, discs that pass each other within reach of the functions: a hundredth of their velocity and more is turned or lost, though they don't touch")
+        Check::known_limit("touches-through-the-grid", "explicit, discs that pass within reach of the functions without touching: a hundredth or more of their velocity turned or lost")
             .when(|d| d.is_explicit() && d.offset >= 2.0 * RADIUS && d.metric(FREE_UNTIL).is_finite())
             .above(DEFLECTION, |_| 0.01)
             .because("nodes that see both have one velocity"),
-        Check::truth("newton", "implicit: at most seven Newton iterations a step, as four squarings lead from a tenth to the tolerance, and three more lead there")
+        Check::truth("newton", "implicit: at most 7 Newton iterations a step, 3 to reach quadratic convergence, 4 from 10⁻¹ to the tolerance")
             .when(|d| d.is_implicit())
             .at_most(NEWTON_ITERATIONS, |d| 7.0 * d.steps())
             .because("quadratic convergence with the exact tangent"),

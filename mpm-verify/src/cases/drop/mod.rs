@@ -123,13 +123,13 @@ fn sketch() -> Sketch {
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Drop>;
     vec![
-        Check::truth("open", "the gap of no particle is ever zero or less")
+        Check::truth("open", "gap of every particle positive at all times")
             .above(LEAST_GAP, |_| 0.0)
             .because("the barrier's energy is infinite at a closed gap"),
-        Check::truth("coulomb", "the force along the floor is at most μ times the one across it, in every step, to rounding")
+        Check::truth("coulomb", "tangential force of the floor at most μ times the normal one, in every step, to rounding")
             .at_most(COULOMB_EXCESS, |_| ROUNDING)
             .because("every stick is returned to μN"),
-        Check::truth("momentum", "explicit and midpoint: what the block loses the floor has got, to rounding, and with implicit steps to what Newton's method leaves in each")
+        Check::truth("momentum", "explicit and midpoint: momentum lost by the block gained by the floor, to rounding, in implicit steps within Newton's residual")
             .when(|b| b.rule() != Some(RuleName::Newmark))
             .at_most(MOMENTUM_ERROR, |b| {
                 let left = if b.is_implicit() { b.tolerance * b.record.work.steps as f64 } else { 0.0 };
@@ -143,7 +143,7 @@ fn checks() -> Vec<Check> {
                 offset + ROUNDING
             })
             .because("barrier and sticks give what they were given, and sliding takes; velocities live half a step before places"),
-        Check::truth("slides", "four times as fast along the floor as across it: the impulse along it is μ times the one across it, within a fiftieth for sticks that give way first")
+        Check::truth("slides", "tangential velocity four times the normal one: tangential impulse μ times the normal one, within a fiftieth for sticks before slip")
             .when(|b| b.slant.abs() >= SLIPS)
             .within(FRICTION_RATIO, |_| 1.0, |_| YIELDS)
             .because("Coulomb: a block that slips all the time"),

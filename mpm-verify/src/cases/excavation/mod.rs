@@ -237,48 +237,48 @@ fn checks() -> Vec<Check> {
     type Check = CheckOf<Excavation>;
     type Demand = crate::demand::Demand<Excavation>;
     vec![
-        Check::truth("reaction", "in equilibrium before the excavation the base bears the weight, and base and rollers push each other alone")
+        Check::truth("reaction", "equilibrium before the excavation: vertical reaction of the base equal to the weight, horizontal forces of base and rollers balanced")
             // The whole slope has an equilibrium under full gravity.
             .when(|c| c.metric(GRAVITY_CARRIED) > 1.0 - 1e-9 && c.metric(STANDS_UNCUT) == 1.0)
             .at_most(REACTION_ERROR, |_| EQUILIBRIUM)
             .at_most(SIDE_ERROR, |_| EQUILIBRIUM)
             .because("equilibrium, to Newton's tolerance"),
-        Check::truth("taken-over", "what stays keeps its stress from phase to phase, bit for bit: the cut is made in ground that rests")
+        Check::truth("taken-over", "stress of the remaining particles unchanged from phase to phase, bit for bit: the ground is at rest when cut")
             .when(|c| !c.metric(HANDED_OVER).is_nan())
             .at_most(HANDED_OVER, |_| 0.0)
             .because("a phase begins as the one before it ended"),
-        Check::truth("stands-below-the-limit", "without softening, on a rough base: a slope that limit analysis lets stand by more than arcs are above the collapse load stands, whole and cut")
+        Check::truth("stands-below-the-limit", "no softening, rough base, factor of safety above one by more than the excess of arcs over the collapse load: the slope stands, whole and cut")
             .when(|c| !c.softens() && !c.slides())
             .each(LIMITS.map(|(factor, stands)| {
                 Demand::within(stands, |_| 1.0, |_| 0.0).when(move |c| c.metric(factor) > 1.0 + ARCS)
             }))
             .because("finite-element limit analysis: docs/excavation.md"),
-        Check::truth("falls-above-the-limit", "a slope whose factor of safety at the peak strength is below one does not stand, whole or cut")
+        Check::truth("falls-above-the-limit", "a slope with a factor of safety below one at the peak strength does not stand, whole or cut")
             .each(LIMITS.map(|(factor, stands)| {
                 Demand::within(stands, |_| 0.0, |_| 0.0)
                     .when(move |c| c.metric(factor) < 1.0 && !c.metric(stands).is_nan())
             }))
             .because("arcs and sliding feet are upper bounds: docs/excavation.md"),
-        Check::truth("balance", "midpoint: kinetic energy, the stresses' work and what the lumped mass and the ghost penalty took are the work of the load")
+        Check::truth("balance", "midpoint: kinetic energy, stress work and losses by lumped mass and ghost penalty add up to the work of the load")
             .when(moves_by_midpoint)
             .at_most(BALANCE_ERROR, |_| BALANCED)
             .because("Eq. (21) of docs/implicit.md, to Newton's tolerance"),
-        Check::truth("no-energy-gain", "midpoint, hencky-j2: kinetic, stored and dissipated energy never exceed the work of the load by more than 10⁻⁴ of it")
+        Check::truth("no-energy-gain", "midpoint, hencky-j2: kinetic, stored and dissipated energy exceed the work of the load by at most 10⁻⁴ of it")
             .when(|c| c.law == LawName::Hencky && moves_by_midpoint(c))
             .at_most(ENERGY_GAIN, |_| NO_GAIN)
             .because("the rule gives none, flow takes: docs/implicit.md"),
-        Check::truth("momentum", "midpoint, base=friction: vertical momentum is the impulse of the weight less that of the base")
+        Check::truth("momentum", "midpoint, base=friction: vertical momentum equal to the impulse of the weight less that of the base")
             .when(|c| c.slides() && moves_by_midpoint(c))
             .at_most(MOMENTUM_ERROR, |_| ROUNDING)
             .because("internal forces sum to zero, as the functions sum to one"),
-        Check::truth("flow", "plastic strain never falls, of no particle")
+        Check::truth("flow", "plastic strain of every particle never falls")
             .above(FLOW_LEAST, |_| -f64::EPSILON)
             .because("flow dissipates"),
-        Check::truth("coulomb", "base=friction: the base never holds more than μ times its pressure")
+        Check::truth("coulomb", "base=friction: friction of the base at most μ times its pressure")
             .when(|c| c.slides())
             .at_most(FRICTION_RATIO, |c| c.friction * (1.0 + ROUNDING))
             .because("Coulomb's law, which holds of every particle"),
-        Check::truth("peak-does-not-fail", "rough base: with softening the cut slope does not stand, and at the peak strength without softening it does")
+        Check::truth("peak-does-not-fail", "rough base: the cut slope stands at the peak strength without softening, and does not with it")
             .when(|c| c.record.status == Status::Ok && c.changes_none_but(&["residual"]) && !c.softens())
             .pairs(|perfect, own| {
                 let alike = own.record.status == Status::Ok && own.is_default() && own.scheme == perfect.scheme && own.level == perfect.level;
@@ -291,7 +291,7 @@ fn checks() -> Vec<Check> {
                 |_| 0.0,
             )
             .because_of(|c| format!("{} {}", c.scheme, c.level)),
-        Check::known_limit("run-out-by-level", "rough base, softening: the run-outs of two levels differ by more than a hundredth, as softening has no length")
+        Check::known_limit("run-out-by-level", "rough base, softening: run-outs of two levels differ by more than a hundredth, as softening has no length scale")
             .study(differs_by_level),
     ]
 }

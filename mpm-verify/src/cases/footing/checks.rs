@@ -179,17 +179,17 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
                 |_| 0.0,
             )
             .because("Zhao et al. 2023, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2"),
-        Check::truth("elastic-slope", "all, of a strength beyond reach: d(q/s_u)/d(s/B) is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
+        Check::truth("elastic-slope", "all, unreachable strength: d(q/s_u)/d(s/B) that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
             .unless(|c| (!c.is_elastic()).then(|| "the ground yields: see the runs of great strength".to_owned()))
             .unless(|c| c.rings())
             .unless(|c| c.reference_slope().err())
             .within(ELASTIC_SLOPE, |c| c.elastic_slope(), |c| (FEM * c.coarseness() + c.soft_edge()) * c.elastic_slope())
             .because("finite elements that act as wide"),
-        Check::truth("quasi-static", "all with FLIP or in equilibrium, as all that follows but elastic-slope: the force on the base is that on the footing within 0.5 %, mean over the last quarter of the penetration (linear momentum)")
+        Check::truth("quasi-static", "FLIP and quasi-static runs, also below: mean force on the base that on the footing within 0.5 % over the last quarter of the penetration")
             .unless(|c| c.shown_only())
             .at_most(Quantity::abs(FORCE_IMBALANCE), |_| INERTIA)
             .because("linear momentum of a body that is pressed slowly"),
-        Check::truth("prandtl", "the limit load by the width that the footing acts with is 2 + π within 1 % at h ≤ B/20, within 2 % at B/10")
+        Check::truth("prandtl", "limit load over the effective width of the footing 2 + π within 1 % at h ≤ B/20, within 2 % at B/10")
             .unless(|c| c.shown_only())
             .when(|c| c.yields())
             .unless(|c| c.no_limit())
@@ -197,7 +197,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .within(NC_EFFECTIVE, |_| EXACT, |c| {
 c.load_tolerance()})
             .because("Prandtl 1920"),
-        Check::truth("limit-load", "fbar-rate, fbar-consistent: the load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter of the penetration")
+        Check::truth("limit-load", "fbar-rate, fbar-consistent: load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter")
             .when(|c| c.has_limit())
             .unless(|c| c.no_limit())
             .within(PLATEAU_RISE, |_| 0.5 * (FLAT.1 - FLAT.0), |_| 0.5 * (FLAT.1 + FLAT.0))
@@ -209,7 +209,7 @@ c.load_tolerance()})
             .unless(|c| (c.coarseness() > 1.0).then(|| "five cells under half of the footing don't resolve the pressure's edge".to_owned()))
             .at_most(CHECKERBOARD_RATIO, |_| BOARD.0)
             .because("a pressure that is resolved is close to its average"),
-        Check::truth("mechanism", "fbar-rate, fbar-consistent: the surface rises out to 1.5 times the width that the footing acts with, once the width if it is smooth, within 2h")
+        Check::truth("mechanism", "fbar-rate, fbar-consistent: surface rises out to 1.5 times the effective width of the footing, once the width if it is smooth, within 2h")
             .when(|c| c.has_limit())
             .unless(|c| c.no_limit())
             .unless(|c| c.unknown_width())
@@ -218,7 +218,7 @@ c.load_tolerance()})
                 let whose = if c.rough { "Prandtl's" } else { "Hill's" };
                 format!("{whose} mechanism; a jump of velocity is smeared over a cell on either side")
             }),
-        Check::truth("mean-stress", "σ_m at five points is that of the finite elements of vanishing size within h |∇σ_m|")
+        Check::truth("mean-stress", "σ_m at five points that of finite elements of vanishing size within h |∇σ_m|")
             .when(|c| c.yields() && c.no_limit().is_none())
             .unless(|c| (!c.rough).then(|| "the reference is that of a rough footing".to_owned()))
             .unless(|c| c.unknown_width())
@@ -233,26 +233,26 @@ c.load_tolerance()})
                 .when(move |_| known().is_some())
             }))
             .because("finite elements of vanishing size"),
-        Check::truth("fem-plateau", "the limit load by B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
+        Check::truth("fem-plateau", "limit load over B that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
             .when(|c| c.yields())
             .unless(|c| c.no_limit())
             .unless(|c| c.reference_curve().err())
             .within(NC_B, |c| c.reference_limit(), |c| FEM * c.coarseness() * c.reference_limit())
             .because_of(|c| c.reference_curve().map_or(String::new(), |curve| curve.name)),
-        Check::truth("curve", "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B is that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
+        Check::truth("curve", "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
             .when(|c| c.reaches_limit())
             .own(load_curve),
-        Check::known_limit("no-limit-load", "none: the load still grows by more than 0.5 % per 10⁻³ of s/B at the end")
+        Check::known_limit("no-limit-load", "none: final growth of the load above 0.5 % per 10⁻³ of s/B")
             .when(|c| c.locks_at_limit())
             .above(PLATEAU_RISE, |_| FLAT.1)
             .because(LOCKS),
-        Check::known_limit("locked", "none: the load by the width that the footing acts with exceeds 2 + π by twice the tolerance of prandtl")
+        Check::known_limit("locked", "none: load over the effective width of the footing above 2 + π by more than twice the tolerance of prandtl")
             .when(|c| c.locks())
             .unless(|c| c.no_limit())
             .unless(|c| c.unknown_width())
             .above(NC_EFFECTIVE, |c| (1.0 + LOCKED * PRANDTL * c.coarseness()) * EXACT)
             .because(LOCKS),
-        Check::known_limit("soft-by-diffusion", "fbar-recursive: the load by the width that the footing acts with falls short of 2 + π by more than the tolerance of prandtl")
+        Check::known_limit("soft-by-diffusion", "fbar-recursive: limit load over the effective width short of 2 + π by more than the tolerance of prandtl")
             .when(|c| c.remedy() == FbarRecursive && c.yields())
             .unless(|c| c.no_limit())
             .unless(|c| c.unknown_width())

@@ -143,35 +143,35 @@ pub(super) fn checks() -> Vec<Check> {
 fn of_rest() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     vec![
-        Check::bookkeeping("particle-count", "as many particles as have their centres strictly inside of the face: the paper's 311,250 at h = 0.2 m")
+        Check::bookkeeping("particle-count", "number of particles that of centres strictly inside the face: the paper's 311,250 at h = 0.2 m")
             .when(|c| !c.in_section().is_nan())
             .within(PARTICLES, |c| (c.in_section() * c.metric(PARTICLES_ACROSS)).round(), |_| 0.0)
             .because("Zhao et al. 2023, section 4.4: 311,250 at h = 0.2 m"),
-        Check::bookkeeping("mass", "all: the mass at the end is that of the particles, to rounding")
+        Check::bookkeeping("mass", "all: final mass that of the particles, to rounding")
             .when(|c| !c.in_section().is_nan())
             .within(MASS, |c| c.mass(), |c| ROUNDING * c.mass())
             .because("conservation of mass"),
-        Check::truth("base-reaction", "all: after the gravity stage the force on the base is the weight within 0.5 %")
+        Check::truth("base-reaction", "all: force on the base after the gravity stage the weight within 0.5 %")
             .within(BASE_REACTION_RATIO, |_| 1.0, |_| WEIGHT)
             .because("weight of the ground"),
-        Check::truth("at-rest", "none and fbar-consistent with FLIP and APIC, except slow-motion: after the gravity stage the kinetic energy of the nodes is below 10⁻⁶ of the stored energy")
+        Check::truth("at-rest", "none and fbar-consistent with FLIP and APIC, except slow-motion: kinetic energy of the nodes after the gravity stage below 10⁻⁶ of the stored energy")
             .unless(|c| c.never_rests())
             .when(|c| keeps_moving(c).is_none())
             .at_most(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("velocities a thousandth of elastic ones"),
-        Check::known_limit("creeps", "fbar-recursive: it is above, because averages of averages diffuse the volume")
+        Check::known_limit("creeps", "fbar-recursive: kinetic energy above the bound of at-rest, as averages of averages diffuse the volume")
             .when(|c| moves_on(c, Moves::Creeps))
             .above(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("averages of averages diffuse the volume: docs/column.md"),
-        Check::known_limit("slow-motion", "fbar-consistent with quadratic splines at h = 0.5 m, where the toe has yielded: it is above")
+        Check::known_limit("slow-motion", "fbar-consistent with quadratic splines at h = 0.5 m, toe yielded: kinetic energy above the bound of at-rest")
             .when(|c| moves_on(c, Moves::Slowly))
             .above(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("seen where the toe has yielded"),
-        Check::truth("overburden", "all but none with GIMP: far from the face the vertical stress is the weight above, rms within 2 % of γ H")
+        Check::truth("overburden", "vertical stress far from the face the weight above, rms within 2 % of γ H")
             .unless(|c| c.feels_the_face().then(|| "the face is felt at the back wall".to_owned()))
             .at_most(OVERBURDEN_ERROR, |_| OVERBURDEN)
             .because("level ground"),
-        Check::known_limit("locked-stress", "none with GIMP: it is not, and the mean stress alternates from particle to particle by more than 5 % of γ H")
+        Check::known_limit("locked-stress", "none with GIMP: vertical stress beyond overburden's bound, and mean stress alternates between particles by more than 5 % of γ H")
             .when(|c| !c.feels_the_face() && c.is_locked())
             .above(OVERBURDEN_ERROR, |_| OVERBURDEN)
             .above(CHECKERBOARD_AT_REST, |_| CHECKERBOARD)
@@ -186,11 +186,11 @@ fn of_energy() -> Vec<Check> {
             .unless(|c| (c.transfer() != TransferName::Flip).then(|| "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'".to_owned()))
             .at_most(ENERGY_GAIN, |_| ROUNDING)
             .because("explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md"),
-        Check::truth("energy-not-made", "fbar-consistent: at the end they are not more than those")
+        Check::truth("energy-not-made", "fbar-consistent: final kinetic, potential and stored energy and dissipation at most those at the reduction")
             .when(|c| c.remedy() == FbarConsistent)
             .at_most(UNACCOUNTED_ENERGY, |_| ROUNDING)
             .because("what is stored and dissipated has fallen before"),
-        Check::truth("energy-closure", "all that fall, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation are those at the reduction within h/H of the fallen energy")
+        Check::truth("energy-closure", "failing slopes, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation those at the reduction within h/H of the fallen energy")
             .unless(|c| (c.duration > EARLY_SLIDE).then(|| "the ground flows: steps lose on the grid, and the share is reported".to_owned()))
             .unless(|c| c.stands().then(|| "the slope stands: next to nothing falls".to_owned()))
             .within(
@@ -207,16 +207,16 @@ fn of_slide() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     const LIMIT: &str = "limit analysis: docs/exact.md";
     vec![
-        Check::truth("stands", "all, with a reduction below the lower bound of limit analysis by a tenth: less than a hundredth of the ground moves by H/20")
+        Check::truth("stands", "all, reduction a tenth below the lower bound of limit analysis: less than a hundredth of the ground moves by H/20")
             .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those of a face at 45° under a long crest".to_owned()))
             .when(|c| c.stands())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
-        Check::truth("fails", "F̄, with a reduction beyond the upper bound of limit analysis and what a band of cells bears besides, h/H: it does")
+        Check::truth("fails", "reduction beyond the upper bound of limit analysis and h/H for the strength of a band of cells: more than a hundredth of the ground moves by H/20")
             .when(|c| c.must_fail())
             .above(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
-        Check::known_limit("locked", "none with GIMP, with a reduction beyond the same bound: less than a hundredth of the ground moves by H/20")
+        Check::known_limit("locked", "none with GIMP, reduction beyond the bound of fails: less than a hundredth of the ground moves by H/20")
             .when(|c| c.must_fail() && c.is_locked())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
@@ -230,11 +230,11 @@ fn of_width() -> Vec<Check> {
     let alike = |metric| Demand::at_most(metric, |_| GROWN_ROUNDING);
     let off = |metric, tolerance: fn(&Slope) -> f64| Demand::within(metric, |_| 0.0, tolerance).of_scale(|_| 1.0);
     vec![
-        Check::truth("uniform", "in three dimensions: what was in one place of the section has moved alike over the width at rest and 0.5 s after the reduction, within 10⁻⁴")
+        Check::truth("uniform", "three dimensions: displacement uniform over the width at rest and 0.5 s after the reduction, within 10⁻⁴")
             .when(in_space)
             .each([alike(WIDTH_SPREAD_AT_REST), alike(WIDTH_SPREAD_0_5S).when(|c| c.is_unbroken())])
             .because("the problem is that of its section"),
-        Check::truth("plane-strain", "in three dimensions: at rest the crest has sunk as in plane strain, within 10⁻⁴ without F̄ and 2 % with fbar-consistent; without F̄ also 0.5 s after the reduction")
+        Check::truth("plane-strain", "three dimensions: settlement of the crest at rest that in plane strain within 10⁻⁴ without F̄ (also 0.5 s after the reduction), 2 % with fbar-consistent")
             .when(in_space)
             .each([
                 off(OFF_PLANE_STRAIN_AT_REST, |c| match c.remedy() {
@@ -255,7 +255,7 @@ fn of_studies() -> Vec<Check> {
     vec![
         Check::truth(
             "slice",
-            "in three dimensions: at rest the crest of a slice has sunk as that of the full width, within 10⁻⁴",
+            "three dimensions: settlement of the crest of a slice at rest that of the full width, within 10⁻⁴",
         )
         .study(|records| {
             let like = |(slice, whole): (Slope, Slope)| {

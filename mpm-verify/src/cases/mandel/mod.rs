@@ -143,21 +143,21 @@ fn checks() -> Vec<Check> {
         Check::truth("difference-equations", "pressure in the middle and paths of plate and side agree in every step with the eliminated difference equations within 10 F/(G a) of finite strain and its rounding")
             .at_most(EQUATIONS_DISTANCE, |c| c.finite())
             .because("the equations of cells, nodes and plate at small strain, docs/mandel.md"),
-        Check::truth("centre-pressure", "no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
+        Check::truth("centre-pressure", "error of the pressure in the middle against Mandel's at most that of the difference equations, and 10 F/(G a)")
             .at_most(CENTRE_PRESSURE_ERROR, |c| c.errors_of_equations().centre + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("settlement", "path of a plate no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
+        Check::truth("settlement", "error of a plate's path against Mandel's at most that of the difference equations, and 10 F/(G a)")
             .at_most(SETTLEMENT_ERROR, |c| c.errors_of_equations().settlement + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("bulge", "path of a side no farther from Mandel's than the solution of the difference equations is, and 10 F/(G a)")
+        Check::truth("bulge", "error of a side's path against Mandel's at most that of the difference equations, and 10 F/(G a)")
             .at_most(BULGE_ERROR, |c| c.errors_of_equations().bulge + c.finite())
             .because(SERIES_AND_EQUATIONS),
-        Check::truth("peak", "as high as the series' peak within the error of the pressure and the fall of the series between steps")
+        Check::truth("peak", "peak pressure that of the series within the error of the pressure and the fall of the series between steps")
             .within(PEAK, |c| c.peak_between_steps().0, |c| {
                 c.errors_of_equations().centre + c.peak_between_steps().1 + c.finite()
             })
             .because("Mandel's series"),
-        Check::truth("peak-time", "the series at the time of the peak lacks of its own peak at most that loss and twice that error")
+        Check::truth("peak-time", "series at the time of the peak below its own peak by at most that fall and twice that error")
             .at_most(
                 Quantity::new(format!("series' peak less the series at {}", PEAK_TIME.name), |c: &Run<Mandel>| {
                     c.peak_between_steps().0 - c.exact().at(c.metric(PEAK_TIME)).centre
@@ -183,16 +183,16 @@ fn checks() -> Vec<Check> {
                 left + rounding
             })
             .because("exact rate: the equations of all nodes add up to the balance of the slab"),
-        Check::truth("order-space", "default parameters, three finest levels: order in h of the error of space alone at least 2 − 0.15")
+        Check::truth("order-space", "default parameters, three finest levels: error of space alone of order in h at least 2 − 0.15")
             .when(|c| c.is_default())
             .order(CENTRE_PRESSURE_ERROR_SPACE, Over::CellSize, 2.0)
             .named(|c| format!("order in h of {} of {}", CENTRE_PRESSURE_ERROR_SPACE.name, c.scheme))
             .because(ORDERS),
-        Check::truth("order-time", "linear functions, n8, three finest steps: order in Δt of the error of time alone at least 1 − 0.15")
+        Check::truth("order-time", "linear functions, n8, three finest steps: error of time alone of order in Δt at least 1 − 0.15")
             .when(|c| c.level == "n8" && c.basis() == Linear && c.changes_none_but(&["steps"]))
             .order(CENTRE_PRESSURE_ERROR_TIME, Over::TimeStep, 1.0)
             .because(ORDERS),
-        Check::truth("order-together", "n8, n16, n32 with steps that shrink as h²: order in h of the whole error at least 2 − 0.15")
+        Check::truth("order-together", "n8, n16, n32 with steps in proportion to h²: whole error of order in h at least 2 − 0.15")
             .when(|c| c.shrinks_together())
             .order(CENTRE_PRESSURE_ERROR, Over::CellSize, 2.0)
             .named(|c| format!("order in h and Δt of {} of {}", CENTRE_PRESSURE_ERROR.name, c.scheme))

@@ -144,11 +144,11 @@ fn phase(r: &Run<()>) -> f64 {
 pub(in crate::cases) fn of_motion(claims: Claims, wave: Wave) -> Vec<Check> {
     let mut checks = vec![
         mass(),
-        Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of the exact u, k the wave number of the motion and c the speed of its waves: the largest dispersion among bases and remedies, and what a forced vibration makes of it; of implicit steps 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt and r that of ω and the free vibration")
+        Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of u; implicit 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt, r = ω over the free frequency")
             .unless(move |r| wave.unposed(r).map(str::to_owned))
             .at_most(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
             .because_of(move |r| format!("{:.3} times displacement_scale", wave.bound(r))),
-        Gate::known_limit("beyond-bound", "schemes with a known shortcoming: the rms error of u exceeds the bound of error-bound, where it does")
+        Gate::known_limit("beyond-bound", "schemes with a known shortcoming: rms error of u beyond the bound of error-bound, where it is")
             .when(move |r| wave.unposed(r).is_none() && Wave::shortcoming(r, &claims(r)).is_some())
             .when(move |r| r.metric(DISPLACEMENT_L2) > wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
             .above(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
@@ -164,11 +164,14 @@ pub(in crate::cases) fn motion_lost(
     why: impl Fn(&Run<()>) -> Option<&'static str> + Clone + Send + Sync + 'static,
 ) -> Check {
     let known = why.clone();
-    Gate::known_limit("motion-lost", "wherever the rms error of u at the end is larger than the largest rms of the exact u, and no bound on it is judged: nothing is left of the motion")
-        .when(|r| r.metric(DISPLACEMENT_L2) > r.metric(DISPLACEMENT_SCALE) && moves(&r.values))
-        .when(move |r| known(r).is_some())
-        .above(DISPLACEMENT_L2, |r| r.metric(DISPLACEMENT_SCALE))
-        .because_of(move |r| why(r).unwrap_or_default().to_owned())
+    Gate::known_limit(
+        "motion-lost",
+        "where no error bound is judged: final rms error of u larger than the largest rms of the exact u",
+    )
+    .when(|r| r.metric(DISPLACEMENT_L2) > r.metric(DISPLACEMENT_SCALE) && moves(&r.values))
+    .when(move |r| known(r).is_some())
+    .above(DISPLACEMENT_L2, |r| r.metric(DISPLACEMENT_SCALE))
+    .because_of(move |r| why(r).unwrap_or_default().to_owned())
 }
 
 /// Whether a standing wave has an amplitude, and gravity where that drives it; a problem without these moves.
@@ -269,7 +272,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
         on_ladders(
             Gate::truth(
                 "order-displacement",
-                "order of the rms error of u over the three finest levels at least 2 − 0.15, where theory gives 2",
+                "second-order theory: rms error of u over the three finest levels of order at least 2 − 0.15",
             ),
             of,
             |about, l| match l.claim {
@@ -289,7 +292,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
         on_ladders(
             Gate::regression(
                 "observed-order",
-                "where no theory gives the order: it lies in the band stated with the verdict",
+                "no theoretical order: observed order within the band stated with the verdict",
             ),
             of,
             |about, l| match l.claim {
@@ -303,7 +306,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
         on_ladders(
             Gate::known_limit(
                 "stalls",
-                "order of the rms error of u below 2 − 0.15, or the one stated with the verdict, for the reason given there",
+                "rms error of u of order below 2 − 0.15, or that stated with the verdict, for the reason given there",
             ),
             of,
             |about, l| match l.claim {

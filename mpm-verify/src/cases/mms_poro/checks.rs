@@ -17,14 +17,14 @@ pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Motion>;
     let moved = |m: &Run<Motion>| m.has_moved().then(|| MOVED.to_owned());
     vec![
-        Check::truth("error-bound", "without an error of time: rms errors of u and p at most what each equation errs by, 0.8 (πh)² of u and 0.8 (πh_p)² of p, and what the other field's error adds through M; left out of linear functions whose particles have moved")
+        Check::truth("error-bound", "no error of time, no linear functions with moved particles: rms errors at most 0.8 (πh)² of u, 0.8 (πh_p)² of p, and the coupling through M")
             .when(|m| m.source == Source::Steps)
             .each([
                 Demand::at_most(DISPLACEMENT_L2, |m| bounds(m)[0]).unless(moved),
                 Demand::at_most(PRESSURE_L2, |m| bounds(m)[1]).unless(moved),
             ])
             .because("both equations are of second order, and linear in the other field's error"),
-        Check::truth("order-space", "without an error of time, three finest levels: order in h of the rms errors of u and p at least 2 − 0.15; of p where hardly any water flows 1 − 0.15, of equal none; none of linear functions whose particles have moved")
+        Check::truth("order-space", "no error of time, three finest levels: rms errors of order in h at least 2 − 0.15, nearly undrained p 1 − 0.15 (equal order: none); not linear functions with moved particles")
             .study(|records| {
                 of_ladders(records, |metric, runs| {
                     let (name, order) = order(metric, runs);
@@ -34,7 +34,7 @@ pub(super) fn checks() -> Vec<Check> {
                     })
                 })
             }),
-        Check::known_limit("stalls", "linear functions whose particles have moved: order of the error of u below 2 − 0.15")
+        Check::known_limit("stalls", "linear functions with moved particles: error of u of order below 2 − 0.15")
             .study(|records| {
                 of_ladders(records, |metric, runs| {
                     let stalls = metric == DISPLACEMENT_L2 && has_moved(runs[0]);
@@ -42,7 +42,7 @@ pub(super) fn checks() -> Vec<Check> {
                     stalls.then(|| Finding::at_most(name, order, 2.0 - SLACK, MOVED))
                 })
             }),
-        Check::truth("order-time", "source of rates, three finest steps at a level: order in Δt of the rms error of p at least 1 − 0.15")
+        Check::truth("order-time", "source of rates, three finest steps at a level: rms error of p of order in Δt at least 1 − 0.15")
             .study(orders_in_time),
     ]
 }

@@ -151,32 +151,32 @@ impl Run<'_, Newton> {
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Newton>;
     vec![
-        Check::truth("never-wrong", "in one step that was not cut, and standing without a remedy but with linear functions: the last equilibrium that was found is the exact one, within h² times the greatest slope of the stretch")
+        Check::truth("never-wrong", "a single uncut step, or standing without a remedy, except linear functions: last equilibrium exact within h² times the greatest slope of the stretch")
             .when(|c| {
                 let smooth = c.basis() != Linear && c.remedy() == RemedyName::None;
                 (c.is_whole() || c.stands() && smooth) && c.has(EQUILIBRIUM_ERROR)
             })
             .at_most(EQUILIBRIUM_ERROR, |c| c.metric(BOUND))
             .because("there is one below the greatest load that the law goes on from; another is far away"),
-        Check::truth("no-more-than-there-is", "hanging beyond what can be borne: no equilibrium is found beyond it, within a fiftieth for the cells")
+        Check::truth("no-more-than-there-is", "hanging beyond the bearable load: no equilibrium beyond that load, within a fiftieth for the cells")
             .when(|c| c.metric(BEARABLE) < 1.0)
             .at_most(CARRIED, |c| c.metric(BEARABLE) * (1.0 + STIFFER))
             .because("ln λ/λ is at most 1/e"),
-        Check::truth("weight", "what holds the column carries its weight, to what Newton's method leaves")
+        Check::truth("weight", "reaction on the column equal to its weight within Newton's residual")
             .when(|c| c.has(REACTION_ERROR))
             .within(REACTION_ERROR, |_| 0.0, |_| CONVERGED)
             .of_scale(|_| 1.0)
             .because("equilibrium of the whole body"),
-        Check::truth("gap", "standing: the lowest particles are at the gap at which the barrier carries the weight, to what Newton's method leaves")
+        Check::truth("gap", "standing: gap of the lowest particles that at which the barrier carries the weight, within Newton's residual")
             .when(|c| c.has(GAP_ERROR))
             .within(GAP_ERROR, |_| 0.0, |_| CONVERGED)
             .of_scale(|_| 1.0)
             .because("every column of particles is alike, and the barrier's force has one gap"),
-        Check::known_limit("moved-quadrature", "linear functions, hanging, in more than one part: the equilibrium is one of the moved particles, off by more than three times the bound")
+        Check::known_limit("moved-quadrature", "linear functions, hanging, more than one part: equilibrium of the moved particles, off by more than three times the bound of never-wrong")
             .when(|c| !c.stands() && !c.is_whole() && c.basis() == Linear && c.has(EQUILIBRIUM_ERROR))
             .above(EQUILIBRIUM_ERROR, |c| MOVED * c.metric(BOUND))
             .because("slopes that jump where particles cross grid lines: whole cells lose their stress, and tear"),
-        Check::known_limit("hair-cut", "GIMP, hanging, a hundred steps and more: no equilibrium is found beyond half of the load")
+        Check::known_limit("hair-cut", "GIMP, hanging, a hundred steps and more: no equilibrium beyond half of the load")
             .when(|c| c.load_steps >= 100 && !c.stands() && c.basis() == Gimp)
             .at_most(CARRIED, |_| 0.5)
             .because("a node that sees a hair of the free end makes the stiffness singular; nothing is stabilised"),

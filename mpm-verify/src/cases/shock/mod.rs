@@ -208,12 +208,12 @@ fn checks() -> Vec<Check> {
             Check::truth("wall-force", "the wall takes the exact momentum within the tolerance of shock-speed"),
             WALL_FORCE_ERROR,
         ),
-        Check::truth("velocity", "the mean velocity behind it is zero, within a cell over the way and half of what the energy that rings does to the stress")
+        Check::truth("velocity", "mean velocity behind the front zero within a cell over the measured way and half the effect of ringing on the stress")
             .when(|r| r.is_sound())
             .within(VELOCITY_ERROR, |_| 0.0, |r| r.bound())
             .of_scale(|_| 1.0)
             .because("the wall stops what comes"),
-        Check::truth("no-energy-gain", "none and fbar-consistent: energy never above its start by more than the CFL number times a cell of the bar")
+        Check::truth("no-energy-gain", "none and fbar-consistent: energy above its start by at most the CFL number times a cell of the bar")
             .when(|r| r.keeps())
             .at_most(ENERGY_GAIN, |r| r.cfl * r.h)
             .because("velocities live half a step before places, in the front alone"),
@@ -226,23 +226,23 @@ fn checks() -> Vec<Check> {
             .when(|r| r.is_steady())
             .within(FRONT_WIDTH, |r| r.metric(PREDICTED_WIDTH), |r| r.support())
             .because("q bears what line and law leave; a function's support is the least that is seen of a jump"),
-        Check::known_limit("weak-viscosity-rings", "an artificial viscosity whose linear part is small, without a remedy, at Mach 0.5 and more: stresses exceed the exact one by more than a tenth")
+        Check::known_limit("weak-viscosity-rings", "artificial viscosity with a small linear part, no remedy, Mach 0.5 and more: stress above the exact one by more than a tenth")
             .when(|r| r.is_viscous() && !r.takes_ringing() && r.remedy() == RemedyName::None && r.mach >= WEAK)
             .above(OVERSHOOT, |_| 0.1)
             .because("quadratic in the rate, it acts in the front and not on what is left behind it"),
-        Check::known_limit("rings", "without viscosity, Mach 0.5 and more, up to 128 cells, without a remedy: of what the front should take a tenth and more is not taken but rings")
+        Check::known_limit("rings", "no viscosity, no remedy, Mach 0.5 and more, up to 128 cells: a tenth or more of the energy due for dissipation rings instead")
             .when(|r| !r.is_viscous() && r.mach >= WEAK && r.remedy() == RemedyName::None && r.h >= COARSE)
             .at_most(ENERGY_LOSS_ERROR, |_| -0.1)
             .because("no viscosity: a step of a stress leaves waves of a few cells behind it, which carry the energy"),
-        Check::known_limit("recursion-smears", "fbar-recursive, up to Mach 0.5: a quarter more than what the front should take is lost")
+        Check::known_limit("recursion-smears", "fbar-recursive, up to Mach 0.5: energy loss above the exact one by more than a quarter")
             .when(|r| r.is_weak() && r.remedy() == FbarRecursive)
             .above(ENERGY_LOSS_ERROR, |_| 0.25)
             .because("Eq. (26) diffuses J: a front is smeared, and what it takes is not its own"),
-        Check::known_limit("front-missed", "fbar-recursive, fbar-total, fbar-rate and linear functions: the worst of shock-speed, stress and wall-force, over their tolerance, where it exceeds one")
+        Check::known_limit("front-missed", "fbar-recursive, fbar-total, fbar-rate and linear functions: worst of shock-speed, stress and wall-force over their tolerance, where it exceeds one")
             .when(|r| !r.is_sound() && r.worst_miss() > 1.0)
             .above(Quantity::new(STRESS_ERROR.name, |r: &Run<Shock>| r.worst_miss()), |_| 1.0)
             .because("averages that differ between force and rate, or that diffuse, and hats whose stress fades as particles cross cells: docs/shock.md"),
-        Check::known_limit("averaged-hats-lose-stress", "linear functions with an average, up to Mach 0.5: a tenth and more of the stress is missing")
+        Check::known_limit("averaged-hats-lose-stress", "linear functions with an average, up to Mach 0.5: mean stress a tenth or more below the exact one")
             .when(|r| r.is_weak() && r.basis() == Linear && r.remedy() != RemedyName::None)
             .at_most(STRESS_ERROR, |_| -0.1)
             .because("a pressure feeds what an average can't see, at any step: docs/critical-step.md"),

@@ -109,22 +109,22 @@ fn checks() -> Vec<Check> {
     let bound = |place: usize| move |c: &Run<Stability>| c.bounds().map_or(f64::NAN, |bounds| bounds[place]);
     let (lower, upper) = (bound(0), bound(1));
     vec![
-        Check::truth("lower-bound", "all: the factor is above the lower bound of limit analysis less half the last bracket")
+        Check::truth("lower-bound", "all: factor of safety above the lower bound of limit analysis less half the last bracket")
             .when(|c| c.bounds().is_some())
             .unless(move |c| (lower(c) < 1.0).then(|| "the last bracket is too wide: the factor of the unreduced slope meets this bound".to_owned()))
             .above(STRENGTH_REDUCTION_FACTOR, lower)
             .because("lower bound of limit analysis: docs/exact.md"),
-        Check::truth("limit-load", "the factor lies between the lower bound of limit analysis and its upper bound and h/H, by which a band of cells is too strong; both widened by half the last bracket and the half per cent of a slow failure")
+        Check::truth("limit-load", "factor between the bounds of limit analysis, the upper raised by h/H, within half the last bracket and 0.5 %")
             .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those for 45°".to_owned()))
             .within(STRENGTH_REDUCTION_FACTOR, move |c| 0.5 * (lower(c) + upper(c)), move |c| 0.5 * (upper(c) - lower(c)))
             .because("limit analysis: docs/exact.md"),
-        Check::known_limit("locked", "none with GIMP, and with quadratic splines at h > 0.2 m or in equilibrium: the slope still stands at a factor above all that")
+        Check::known_limit("locked", "none with GIMP, and with quadratic splines at h > 0.2 m or quasi-static: the slope stands at a factor above the upper limit of limit-load")
             .when(|c| c.bounds().is_some() && c.locks())
             .above(STANDS_AT, move |c| upper(c) - c.resolution())
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
-        Check::truth("factor-converges", "fbar-consistent: from level to level the factor comes nearer to that of limit analysis, or stays within the uncertainty of both")
+        Check::truth("factor-converges", "fbar-consistent: the factor approaches that of limit analysis from level to level, or stays within the uncertainty of both")
             .study(converges),
-        Check::truth("solvers-agree", "fbar-consistent: the factor of equilibrium is that of the explicit run, within half of both brackets and the half per cent of a slow failure")
+        Check::truth("solvers-agree", "fbar-consistent: quasi-static and explicit factors agree within half of both brackets and 0.5 %")
             .study(agrees),
     ]
 }

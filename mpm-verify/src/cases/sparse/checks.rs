@@ -89,30 +89,30 @@ pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Sparse>;
     let is_random = |c: &Cloud| c.layout == Layout::Random;
     vec![
-        Check::truth("lattice-second-order", "quadratic splines in equilibrium on a lattice of at least four a cell: order of the error of u over the three levels at least 2 − 0.15")
+        Check::truth("lattice-second-order", "quasi-static quadratic splines on a lattice of at least four a cell: error of u over three levels of order at least 2 − 0.15")
             .study(|records| {
                 let why = "linear fields are reproduced, and the quadrature error of a lattice is of second order";
                 let found = orders(records, |c| c.is_plain() && c.layout == Layout::Lattice).into_iter();
                 found.map(|(about, order)| Finding::above(about, order, FORMAL - SLACK, why)).collect()
             }),
-        Check::truth("noise", "quadratic splines in equilibrium, n16 and finer: the median noise of the stress of each layout is to that of random, four a cell, as the root of the variances of a cell's centre of mass, within a quarter").study(noise),
-        Check::truth("softens", "quadratic splines in equilibrium, random, n16 and finer: the median displacement along the exact one is larger than on a lattice with as many").study(softens),
-        Check::known_limit("no-second-order", "quadratic splines in equilibrium, random, four a cell: order of the median error of u over the three levels at most 1 + 0.15")
+        Check::truth("noise", "quasi-static quadratic splines, n16 and finer: median stress noise over that of random, four a cell, equal to the ratio of standard deviations of a cell's centre of mass within a quarter").study(noise),
+        Check::truth("softens", "quasi-static quadratic splines, random, n16 and finer: median displacement along the exact one larger than on a lattice of as many particles").study(softens),
+        Check::known_limit("no-second-order", "quasi-static quadratic splines, random, four a cell: median error of u over three levels of order at most 1 + 0.15")
             .study(move |records| {
                 let why = "the noise of the strain is that of a cell, whatever its size; what it softens is a share of the motion";
                 let four = |c: &Cloud| c.is_plain() && is_random(c) && c.ppc_per_direction == 2;
                 let found = orders(records, four).into_iter();
                 found.map(|(about, order)| Finding::at_most(about, order, OF_NOISE + SLACK, why)).collect()
             }),
-        Check::truth("error-bound", "on a lattice of at least four a cell: the error of u is at most 0.8 (kh)², k = 6.5/m the wave number of the vortex; of a body that moves 1/(1 − (ω/kc)²) times that, c the speed of shear waves")
+        Check::truth("error-bound", "lattice of at least four a cell: error of u at most 0.8 (kh)², k = 6.5/m, over 1 − (ω/kc)² for a moving body, c the shear wave speed")
             .when(|c| c.ppc_per_direction >= 2 && c.layout == Layout::Lattice)
             .at_most(ERROR_MEDIAN, |c| c.bound())
             .because("the largest dispersion among functions and remedies, docs/manufactured.md"),
-        Check::known_limit("beyond-bound", "quadratic splines in equilibrium, random, four a cell, n16 and finer: the median error of u is above that")
+        Check::known_limit("beyond-bound", "quasi-static quadratic splines, random, four a cell, n16 and finer: median error of u above that of error-bound")
             .when(move |c| c.is_judged() && c.ppc_per_direction == 2 && is_random(c))
             .above(ERROR_MEDIAN, |c| c.bound())
             .because("noise and softening, which fall with h once or not at all"),
-        Check::known_limit("one-a-cell", "in equilibrium, random, one a cell, all but linear functions: the median error of u is larger than u, or half of the clouds break down")
+        Check::known_limit("one-a-cell", "quasi-static, random, one a cell, all but linear functions: median error of u above u, or half of the clouds break down")
             .when(move |c| c.is_static() && c.ppc_per_direction == 1 && is_random(c) && c.basis() != Linear)
             .above(
                 Quantity::new(ERROR_MEDIAN.name, |c: &Cloud| {

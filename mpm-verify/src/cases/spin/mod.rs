@@ -178,29 +178,29 @@ fn checks() -> Vec<Check> {
     use TransferName::{Apic, Flip, Musl, Xpic2};
     type Check = CheckOf<Disc>;
     vec![
-        Check::truth("momentum", "linear momentum stays zero, to rounding")
+        Check::truth("momentum", "linear momentum zero to rounding")
             .at_most(MOMENTUM_ERROR, |_| ROUNDING)
             .because("weights sum to one and their gradients to zero"),
-        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, that of the affine parts with it, is kept to rounding")
+        Check::truth("affine-keeps-angular-momentum", "apic: angular momentum, with that of the affine parts, constant to rounding")
             .when(|d| d.is_of(Apic))
             .at_most(ANGULAR_MOMENTUM_ERROR, |_| ROUNDING)
             .because("the affine part carries what a node's arm has (Jiang et al. 2015), and stresses are symmetric"),
-        Check::truth("affine-parts-take-their-share", "apic, up to two turns: the disc turns slower by what its affine parts, which start at rest, take of the angular momentum: by 4D/R² over one and that, D the mean second moment of the functions, within h/R of it")
+        Check::truth("affine-parts-take-their-share", "apic, up to two turns: spin slower by the angular momentum of the affine parts, 4D/R² over one and that, D the mean second moment of the functions, within h/R of it")
             .when(|d| d.is_of(Apic) && !d.is_long())
             .within(PHASE_ERROR, |d| -d.affine_share(), |d| d.h / RADIUS * d.affine_share())
             .because("angular momentum is kept, and I ω is then (M R²/2 + 2 M D) ω"),
-        Check::truth("no-energy-gain", "none and fbar-consistent, not musl: kinetic and stored energy never above their start by more than what is stored at the start")
+        Check::truth("no-energy-gain", "none and fbar-consistent, not musl: kinetic and stored energy exceed their start by at most the energy stored then")
             .when(|d| matches!(d.remedy(), RemedyName::None | FbarConsistent) && !d.is_of(Musl))
             .at_most(ENERGY_GAIN, |d| d.metric(STORED_SHARE))
             .because("velocities live half a step before places: what the disc stores and its motion can exchange, and no more"),
-        Check::truth("stretch", "splines with flip and apic and no remedy, up to two turns: the mean stretch of their last half is that of the exact disc, within h/R of it and the strain's square")
+        Check::truth("stretch", "splines with flip and apic, no remedy, up to two turns: mean stretch of the last half exact within h/R of it and the strain's square")
             .when(|d| d.is_of(Flip) || d.is_of(Apic))
             .when(|d| d.remedy() == RemedyName::None && d.flip == 1.0)
             .when(|d| d.basis().degree() > 1 && d.basis() != Gimp && !d.is_long())
             .within(STRETCH_MEAN_ERROR, |_| 0.0, |d| d.h / RADIUS + d.rim_speed.powi(2))
             .of_scale(|_| 1.0)
             .because("the rim lies within a cell, and the exact disc is that of small strains"),
-        Check::truth("loss-falls-with-cells", "flip, two turns: the loss of angular momentum falls with h² from 4 to 8 cells in the radius, to within 0.15 of the order")
+        Check::truth("loss-falls-with-cells", "flip, two turns: loss of angular momentum in proportion to h² from 4 to 8 cells in the radius, within 0.15 of the order")
             .when(|d| d.is_of(Flip) && d.set == ["turns=2"] && d.metric(ANGULAR_MOMENTUM_ERROR).is_finite())
             .pairs(|coarse, fine| {
                 let same = coarse.scheme == fine.scheme && coarse.set == fine.set;
@@ -212,19 +212,19 @@ fn checks() -> Vec<Check> {
                 |_| ORDER - 0.15,
             )
             .because("what a node's mass is off the node, times the layer in which it is"),
-        Check::known_limit("flip-spins-down", "flip with η = 1, ten turns and more, four cells in the radius: a tenth of the angular momentum is gone")
+        Check::known_limit("flip-spins-down", "flip with η = 1, ten turns and more, four cells in the radius: loss of a tenth or more of the angular momentum")
             .when(|d| d.is_of(Flip) && d.flip == 1.0 && d.h >= 0.25 * RADIUS && d.is_long())
             .at_most(ANGULAR_MOMENTUM_END, |_| 0.9)
             .because("a lumped mass beside the rim lies off its node: FLIP keeps the nodes' angular momentum, not the particles'"),
-        Check::known_limit("filters-spin-down", "PIC and xpic2, ten turns and more: half of the angular momentum is gone")
+        Check::known_limit("filters-spin-down", "PIC and xpic2, ten turns and more: loss of half or more of the angular momentum")
             .when(|d| (d.flip < 1.0 || d.is_of(Xpic2)) && d.is_long())
             .at_most(ANGULAR_MOMENTUM_END, |_| HALF)
             .because("a node beside the rim turns as fast as the mass that it sees, which lies further in; a filter hands that to the particles in every step"),
-        Check::known_limit("gimp-swells", "gimp with apic, ten turns and more: the mean stretch of the last half is above the exact one by more than h/R of it")
+        Check::known_limit("gimp-swells", "gimp with apic, ten turns and more: mean stretch of the last half above the exact one by more than h/R of it")
             .when(|d| d.basis() == Gimp && d.is_of(Apic) && d.is_long())
             .above(STRETCH_MEAN_ERROR, |d| d.h / RADIUS)
             .because("domains keep to the axes of the grid while their lattice turns: they no longer tile it, and crossing makes noise"),
-        Check::known_limit("musl-swells", "musl, ten turns and more: the radius leaves that of the exact disc by more than all that turning adds to it")
+        Check::known_limit("musl-swells", "musl, ten turns and more: radius off the exact one by more than the whole effect of the spin")
             .when(|d| d.is_of(Musl) && d.is_long())
             .above(STRETCH_ERROR, |_| 1.0)
             .because("strains are those of velocities mapped again, places are not: the rim moves off what its stress knows"),

@@ -172,19 +172,19 @@ fn checks() -> Vec<Check> {
     type Demand = crate::demand::Demand<Stretch>;
     let (tears, stops) = (PREDICTED_TEAR_STRETCH, PREDICTED_STOP_STRETCH);
     vec![
-        Check::truth("stress-noise", "no remedy, all but linear functions: as long as the exact state is stable the stress is the exact one within twice what answers the forces of the lattice")
+        Check::truth("stress-noise", "no remedy, all but linear functions, exact state stable: stress exact within twice the response to the lattice's forces")
             .when(|b| b.is_plain() && b.is_continuous())
             .at_most(STRESS_NOISE, |b| SWING * b.metric(PREDICTED_NOISE))
             .because("forces of a wave that the lattice makes, over the stiffness that it meets; twice of what begins at once"),
-        Check::truth("tears-no-earlier", "pulled, no remedy, all but linear functions: the body holds as long as every motion of its free nodes has a positive stiffness, wherever the noise that is foretold may stretch it more")
+        Check::truth("tears-no-earlier", "pulled, no remedy, all but linear functions: no tear while every motion of the free nodes has a positive stiffness, predicted noise included")
             .when(|b| b.is_pulled() && b.is_plain() && b.is_continuous() && b.has(TEAR_STRETCH))
             .above(TEAR_STRETCH, |b| b.metric(UNSTABLE_STRETCH))
             .because("a positive stiffness restores; a stress that moves with the particles takes from it"),
-        Check::truth("crushed-whole", "crushed, no remedy: the body doesn't tear, its mean stress is the exact one within the noise that is foretold")
+        Check::truth("crushed-whole", "crushed, no remedy: no tear, and mean stress exact within the predicted noise")
             .when(move |b| !b.is_pulled() && b.is_plain() && b.is_continuous() && !b.has(stops))
             .within(STRESS_KEPT, |_| 1.0, |b| SWING * b.metric(PREDICTED_NOISE))
             .because("neighbours come closer, and no stiffness is negative under pressure"),
-        Check::truth("stops", "explicit, where the waves of the exact state outrun the step: the program says so at that stretch, within 2 %, or, where the body tears before or in the plane linear functions jump, no later")
+        Check::truth("stops", "explicit, waves of the exact state faster than the step allows: the program stops at that stretch within 2 %, torn or noisy bodies no later")
             .when(move |b| b.has(stops))
             .each([
                 Demand::at_most(STOPPED_STRETCH, move |b| b.metric(stops) * (1.0 + SEEN)).when(|b| b.is_pulled()),
@@ -193,15 +193,15 @@ fn checks() -> Vec<Check> {
                     .when(|b| !b.is_pulled() && !b.jumps_in_the_plane()),
             ])
             .because("(c + |v|) Δt ≤ h of the deformed state, asked in every step"),
-        Check::known_limit("jumps", "linear functions without a remedy, two particles a cell: three tenths of the stress and more are noise")
+        Check::known_limit("jumps", "linear functions without a remedy, two particles a cell: noise three tenths of the stress or more")
             .when(|b| b.ppc_per_direction == 2 && b.is_plain() && !b.is_continuous())
             .above(STRESS_NOISE, |_| JUMPS)
             .because("the stress of a particle pushes another node as soon as it crosses a grid line"),
-        Check::known_limit("tears-early", "explicit, pulled: the body tears, and says nothing, before its particles, at their exact places, would lose their last common node")
+        Check::known_limit("tears-early", "explicit, pulled: the body tears without an error before particles at their exact places lose their last common node")
             .when(move |b| b.is_pulled() && !b.is_implicit() && !b.has(stops))
             .at_most(TEAR_STRETCH, move |b| b.metric(tears).min(b.end))
             .because("a stress that moves with the particles gives motions a negative stiffness that the grid sees badly"),
-        Check::known_limit("recursion-loses", "fbar-recursive, one dimension, crushed to a tenth and less, all but cubic splines: nine tenths of the stress are lost")
+        Check::known_limit("recursion-loses", "fbar-recursive, one dimension, crushed to a tenth and less, all but cubic splines: nine tenths of the stress lost")
             .when(|b| b.end <= 0.1 && b.dimension == 1 && b.remedy() == FbarRecursive && b.basis() != Bspline3)
             .at_most(STRESS_KEPT, |_| 0.1)
             .because("under a pressure, what an average can't see grows: docs/critical-step.md"),

@@ -23,7 +23,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("the equations of all nodes add up to the balance of forces"),
         Check::truth("taylor-hood", "small load, three levels: the finest settlement agrees with the finite elements within the grid convergence index, their uncertainty and 10 q/G of finite strain")
             .study(settlements),
-        Check::truth("pressure", "small load, two grids, three levels: order in h of the pressure's rms distance from the finite elements at least 1 − 0.15")
+        Check::truth("pressure", "small load, two grids, three levels: rms distance of the pressure from the finite elements of order in h at least 1 − 0.15")
             .study(|records| {
                 let why = "p depends on the angle around the strip's edge: of no order within h, on an area of h²";
                 orders(records, |r| is_small(r) && is_of(r, TwoGrid), PRESSURE_ERROR)
@@ -31,7 +31,7 @@ pub(super) fn checks() -> Vec<Check> {
                     .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
                     .collect()
             }),
-        Check::known_limit("equal-order-does-not-converge", "where no water flows, equal order, three levels: the largest distance of p from the finite elements falls by an order below 1 − 0.15")
+        Check::known_limit("equal-order-does-not-converge", "undrained, equal order, three levels: largest distance of p from the finite elements of order in h below 1 − 0.15")
             .study(|records| {
                 let why = "nothing holds pressures that no change of volume sees";
                 orders(records, |r| is_set(r, UNDRAINED) && is_of(r, Equal), PRESSURE_ERROR_LARGEST)
@@ -41,7 +41,7 @@ pub(super) fn checks() -> Vec<Check> {
             }),
         Check::truth("square", "square, small load, two levels: the finer settlement agrees with the finite elements within a first-order index with a safety of 3, their uncertainty and 10 q/G of finite strain")
             .study(squares),
-        Check::truth("smooth", "two grids, the whole load, elastic and Cam clay, three levels: order in h of the pressure's roughness at least 1 − 0.15")
+        Check::truth("smooth", "two grids, whole load, elastic and Cam clay, three levels: roughness of the pressure of order in h at least 1 − 0.15")
             .study(|records| {
                 let why = "neighbours of a pressure with a bounded gradient differ by no more than O(h)";
                 let elastic = orders(records, |r| r.is_default() && is_of(r, TwoGrid), ROUGHNESS);
@@ -52,7 +52,7 @@ pub(super) fn checks() -> Vec<Check> {
                     .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
                     .collect()
             }),
-        Check::truth("order-time", "elastic, the whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
+        Check::truth("order-time", "elastic, whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| is_set_but_steps(r, ""));
                 let orders = orders_in_time(own, |r| number(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
@@ -60,11 +60,11 @@ pub(super) fn checks() -> Vec<Check> {
                 let found = |(name, order)| Finding::above(format!("order in Δt of {name}"), order, 1.0 - SLACK, why);
                 orders.into_iter().map(found).collect()
             }),
-        Check::truth("uniform-clay", "Cam clay under a load on its whole surface that water leaves freely, 10, 20 and 40 steps: order in Δt of the settlement's distance from the integrated rates at least 1 − 0.15")
+        Check::truth("uniform-clay", "Cam clay under a freely drained load on its whole surface, 10, 20, 40 steps: settlement error against the integrated rates of order in Δt at least 1 − 0.15")
             .study(uniform),
         Check::truth("one-limit-load", "Cam clay: 10, 20 and 40 load steps end at the same limit load within the least part of a step and the geometry of different settlements")
             .study(one_limit),
-        Check::truth("plateau", "undrained clay under a settlement: in its last quarter the load grows by no more than a depth factor of 1 + s/B")
+        Check::truth("plateau", "undrained clay under a settlement: load growth in the last quarter at most that of a depth factor 1 + s/B")
             .when(|s| s.is_driven() && s.is_plastic())
             .at_most(GROWTH, |s| 0.25 * s.penetration / s.half_width)
             .because("a strip that bears its limit; Hansen's depth factor is 1 + 0.2 s/B"),

@@ -134,29 +134,29 @@ fn checks() -> Vec<Check> {
                 newton + 4.0 * f64::EPSILON * f64::from(c.steps) * HEIGHT / outflow
             })
             .because("exact rate: the equations of all nodes add up to the balance of the column"),
-        Check::truth("overshoot", "the largest nodal pressure of the first step exceeds q by what the closed form of the discrete equations says, zero where it is monotone")
+        Check::truth("overshoot", "excess of the largest nodal pressure of the first step over q that of the closed form of the discrete equations, zero where monotone")
             .within(OVERSHOOT_FIRST_STEP, |c| c.equations(c.share()).overshoot(c.cells()), |_| FINITE)
             .of_scale(|_| 1.0)
             .because("closed form, docs/poromechanics.md; q/M ≤ 10⁻⁶ is finite"),
-        Check::truth("settlement", "the distance at the end from Terzaghi's degree of consolidation is that of the discrete equations, solved node by node")
+        Check::truth("settlement", "final distance from Terzaghi's degree of consolidation that of the discrete equations, solved node by node")
             .within(SETTLEMENT_ERROR, |c| c.settlement_distance(), |c| {
                 // The last bits of J̃ in every step, over the strain.
                 FINITE + 4.0 * f64::EPSILON * f64::from(c.steps) / c.strain()
             })
             .because("Terzaghi's series, and the equations of docs/poromechanics.md step by step; q/M ≤ 10⁻⁶ is finite, and J̃ rounded"),
-        Check::known_limit("a-sixth-is-not-enough", "two grids at c_v Δt/h² = 1/6, Vermeer and Verruijt's bound: p exceeds q by more than a fifth")
+        Check::known_limit("a-sixth-is-not-enough", "two grids at c_v Δt/h² = 1/6, Vermeer and Verruijt's bound: p above q by more than a fifth")
             .when(|c| c.space() == Some(TwoGrid) && (c.share() - 1.0 / 6.0).abs() < 1e-9)
             .above(OVERSHOOT_FIRST_STEP, |_| 0.2)
             .because("the bound of these elements is 3/4"),
-        Check::truth("order-space", "default parameters, three finest levels: order in h of the error of space alone at least 2 − 0.15")
+        Check::truth("order-space", "default parameters, three finest levels: error of space alone of order in h at least 2 − 0.15")
             .when(|c| c.is_default())
             .order(PRESSURE_L2_STEPS, Over::CellSize, 2.0)
             .because("pressures are linear, and strains averaged, in a cell"),
-        Check::truth("order-time", "n80, three finest steps: order in Δt of the error of p at least 1 − 0.15")
+        Check::truth("order-time", "n80, three finest steps: error of p of order in Δt at least 1 − 0.15")
             .when(|c| c.level == "n80" && c.changes_none_but(&["steps"]))
             .order(PRESSURE_L2, Over::TimeStep, 1.0)
             .because("backward Euler's rule"),
-        Check::truth("functions-agree", "linear functions and GIMP of the same run differ by no more than what domains see of the next cell, into which they sink by q H/M: 2 (q/M)/√(πT)")
+        Check::truth("functions-agree", "linear functions and GIMP of the same run differ by at most 2 (q/M)/√(πT), the effect of domains sunk into the next cell by q H/M")
             .when(|c| c.basis() == Linear)
             .pairs(|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()))
             .at_most(
@@ -166,7 +166,7 @@ fn checks() -> Vec<Check> {
                 |c| 2.0 * c.strain() / (std::f64::consts::PI * c.end()).sqrt(),
             )
             .because("a mean of a hat over a domain within its cell is the hat at the middle"),
-        Check::bookkeeping("fewer-entries", "matrices of two grids have fewer entries than those of one")
+        Check::bookkeeping("fewer-entries", "matrices of two grids with fewer entries than those of one")
             .when(|c| c.space() == Some(TwoGrid) && c.first_step == 0.0)
             .pairs(|c, other| same_but_scheme(c, other) && other.scheme == Scheme::poro(c.basis(), Equal))
             .at_most(

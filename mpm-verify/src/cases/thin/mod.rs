@@ -178,29 +178,29 @@ fn checks() -> Vec<Check> {
     };
     let over_plain = |averaged: &Beam, plain: &Beam| averaged.frequency() / plain.frequency();
     vec![
-        Check::truth("as-predicted", "linear functions and splines without a remedy, midpoint with lumped=0: the frequency is that of the bending stiffness that cells and particles leave, within (βh)²/6 + 0.002, β the wave number of the mode")
+        Check::truth("as-predicted", "linear functions and splines, no remedy, midpoint with lumped=0: frequency that of the discrete bending stiffness within (βh)²/6 + 0.002, β the wave number")
             .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.is_predicted())
             .within(FREQUENCY_RATIO, |b| b.metric(PREDICTED_RATIO), |b| b.slack() * b.metric(PREDICTED_RATIO))
             .because("mass of the particles, stiffness by docs/thin.md; along the beam cells err by (βh)²/12, sections shear by Cowper's coefficient or evenly"),
-        Check::truth("no-stiffer", "the frequency is at most the predicted one, within as much")
+        Check::truth("no-stiffer", "frequency at most the predicted one, within the tolerance of as-predicted")
             .when(|b| b.is_predicted())
             .at_most(Quantity::new(FREQUENCY_RATIO.name, |b: &Beam| b.frequency()), |b| (1.0 + b.slack()) * b.metric(PREDICTED_RATIO))
             .because("lumping adds inertia; functions that see a hair of the beam and averages of the volume change take stiffness"),
-        Check::truth("order", "splines without a remedy, faces on grid lines: the error of the frequency falls from one cell to four at an order of at least 2 − 0.15")
+        Check::truth("order", "splines without a remedy, faces on grid lines: error of the frequency from one to four cells of order at least 2 − 0.15")
             .study(orders),
-        averaged(Check::truth("average-no-stiffer", "fbar-consistent: the frequency is at most that of no remedy with the same cells, to what reading it leaves"))
+        averaged(Check::truth("average-no-stiffer", "fbar-consistent: frequency at most that without a remedy on the same cells, within the error of reading it"))
             .at_most(|b, _| about("over none", b), over_plain, |_| 1.0 + READ)
             .because("an average of the volume change stores no more energy than the volume change"),
-        Check::known_limit("locks", "linear functions without a remedy at ν ≥ 0.49, one and two cells: above 1.5 times the exact frequency")
+        Check::known_limit("locks", "linear functions without a remedy at ν ≥ 0.49, one and two cells: frequency above 1.5 times the exact one")
             .when(|b| b.basis() == Linear && b.is_plain() && b.level != "t4" && b.poisson_ratio >= STIFF)
             .above(FREQUENCY_RATIO, |_| LOCKED)
             .because("within a cell the depth can't change as it bends, at the price of M and not of E′"),
-        Check::known_limit("two-particles", "splines without a remedy, one cell with two particles over the depth: below 0.9 of the exact frequency")
+        Check::known_limit("two-particles", "splines without a remedy, one cell with two particles over the depth: frequency below 0.9 of the exact one")
             .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.is_plain())
             .at_most(FREQUENCY_RATIO, |_| SOFT)
             .because("two particles have three quarters of the second moment of the section"),
         averaged(
-            Check::known_limit("average-hollows", "fbar-consistent at ν = 0, one cell: below 0.9 of the frequency without a remedy")
+            Check::known_limit("average-hollows", "fbar-consistent at ν = 0, one cell: frequency below 0.9 of that without a remedy")
                 .when(|b| b.level == "t1" && b.poisson_ratio == 0.0),
         )
         .at_most(|b, _| about("over none", b), over_plain, |_| SOFT)

@@ -143,23 +143,23 @@ impl Setup<Translate> {
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Translate>;
     vec![
-        Check::truth("momentum", "momentum is kept to rounding")
+        Check::truth("momentum", "momentum constant to rounding")
             .at_most(MOMENTUM_ERROR, |_| ROUNDING)
             .because("weights sum to one and their gradients to zero"),
-        Check::truth("domains-that-tile-are-silent", "gimp with flip and no remedy: the stress stays what it is to rounding")
+        Check::truth("domains-that-tile-are-silent", "gimp with flip and no remedy: stress constant to rounding")
             .when(|b| b.is_plain() && b.basis() == Gimp)
             .at_most(STRESS_NOISE, |_| ROUNDING)
             .within(STRESS_KEPT, |_| 1.0, |_| ROUNDING)
             .because("domains that tile the body integrate a gradient of hats exactly: a uniform stress pushes no node"),
-        Check::truth("noise", "other functions with flip and no remedy: the noise of the stress is at most twice what answers the forces of the lattice")
+        Check::truth("noise", "other functions with flip and no remedy: noise of the stress at most twice the response to the lattice's forces")
             .when(|b| b.is_plain() && b.basis() != Gimp && b.is_slow())
             .at_most(STRESS_NOISE, |b| SWING * b.metric(PREDICTED_NOISE))
             .because("forces of a wave that the lattice makes, over the stiffness that it meets; twice of what begins at once"),
-        Check::truth("no-energy-gain", "all but musl: kinetic and stored energy rise by nothing but rounding")
+        Check::truth("no-energy-gain", "all but musl: kinetic and stored energy rise by rounding at most")
             .when(|b| !b.is_musl())
             .at_most(ENERGY_GAIN, |_| ROUNDING)
             .because("what a stress gives to the velocities that its errors make is taken from what it stores"),
-        Check::known_limit("crossing", "linear functions and splines, a hundred cells: the mean stress fades, of linear functions by more than a half, of quadratic splines by a tenth, of cubic ones, slow, by a hundredth")
+        Check::known_limit("crossing", "linear functions and splines, a hundred cells: mean stress falls by more than a half (linear), a tenth (quadratic), a hundredth (cubic, slow)")
             .when(|b| b.cells >= 100.0 && !b.is_musl() && b.most_kept().is_some())
             .at_most(STRESS_KEPT, |b| b.most_kept().unwrap_or(f64::NAN))
             .because("a uniform stress works on the velocities that its own quadrature error makes, and the transfer takes what it gives them"),

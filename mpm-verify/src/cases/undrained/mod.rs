@@ -147,29 +147,29 @@ fn checks() -> Vec<Check> {
     type Of = Setup<Undrained>;
     let is_square = |space| move |b: &Run<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
     vec![
-        Check::truth("inf-sup-bounded", "two grids, three levels: β falls by no power of h: an order of at most 0.15")
+        Check::truth("inf-sup-bounded", "two grids, three levels: β independent of h, of an order at most 0.15")
             .study(|records| {
                 let why = "a stable pair has a bound that no mesh changes";
                 let orders = orders(records, INF_SUP, |b: &Of| b.space() == Some(TwoGrid));
                 orders.into_iter().map(|(name, order)| Finding::at_most(name, order, SLACK, why)).collect()
             }),
-        Check::known_limit("equal-order-is-unstable", "equal order on the square, three levels: β falls as h, by an order of at least 1 − 0.15")
+        Check::known_limit("equal-order-is-unstable", "equal order on the square, three levels: β falls with h by an order of at least 1 − 0.15")
             .study(|records| at_least(records, INF_SUP, Equal, (1.0, "bilinear pressures on the cells of the displacement are not stable"))),
-        Check::truth("one-constant", "two grids on the square: one pressure has no effect, the constant one")
+        Check::truth("one-constant", "square: only the constant pressure has no effect")
             .when(|b| b.domain == Domain::Square)
             .within(ZERO_MODES, |_| 1.0, |_| 0.0)
             .because("the particles' sums of ∂N/∂x are exact integrals, zero of what is held all around"),
-        Check::known_limit("equal-order-has-checkerboards", "equal order on the square: more pressures than the constant one have no effect")
+        Check::known_limit("equal-order-has-checkerboards", "equal order on the square: pressures besides the constant one have no effect")
             .when(is_square(Equal))
             .above(ZERO_MODES, |_| 1.0)
             .because("checkerboards of bilinear functions"),
-        Check::known_limit("equal-order-loses-the-pressure", "equal order on the square: the pressure's error is larger than the pressure")
+        Check::known_limit("equal-order-loses-the-pressure", "equal order on the square: error of the pressure larger than the pressure")
             .when(is_square(Equal))
             .above(PRESSURE_ERROR, |_| 1.0)
             .because("pressures of small β answer to hardly any motion"),
-        Check::truth("no-locking", "two grids on the square, three levels: order in h of the displacement's error at least 2 − 0.15")
+        Check::truth("no-locking", "two grids on the square, three levels: error of the displacement of order in h at least 2 − 0.15")
             .study(|records| at_least(records, DISPLACEMENT_ERROR, TwoGrid, (2.0, "a stable pair locks no motion: second order in the mean"))),
-        Check::truth("smooth-pressure", "two grids on the square, three levels: order in h of the pressure's error, and of its checkerboard, at least 1 − 0.15")
+        Check::truth("smooth-pressure", "two grids on the square, three levels: error and checkerboard of the pressure of order in h at least 1 − 0.15")
             .study(|records| {
                 let why = "a stable pair has the pressure's error of the gradient's, first order";
                 let both = [PRESSURE_ERROR, CHECKERBOARD_RATIO];

@@ -35,7 +35,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     let failed: Vec<_> = failed.map(|(record, v)| (Some(run(study, record)), v)).collect();
     let has_failed = !failed.is_empty();
     if has_failed {
-        page.section("failed", "What failed");
+        page.section("failed", "Failures");
         page.table("Failed checks", verdicts::table(failed));
     }
     let mut pictures = pictures(study, out).into_iter();
@@ -88,7 +88,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     page.folded("metrics", "Metrics, and what made the runs", |page| {
         let metrics = case.metrics.iter();
         let metrics = metrics.map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
-        page.table("Metrics", Sheet::new(["metric", "unit", "what it measures"]).with(metrics));
+        page.table("Metrics", Sheet::new(["metric", "unit", "meaning"]).with(metrics));
         page.facts(["program", "night", "commit"].into_iter().zip(made_by(study)));
     });
     page

@@ -30,7 +30,7 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
         rows: faults.iter().map(line).chain([last]).collect(),
     };
     let alone = faults.iter().filter(|f| f.hangs_on_one()).count();
-    let mut page = Document::new("Seeded faults: which check sees which");
+    let mut page = Document::new("Seeded faults and the checks that detect them");
     page.classed(
         "lead",
         format!(
@@ -42,9 +42,9 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
     let key = Text::from("A number is that of the checks of a case that go red, which its title names. ");
     page.paragraph(
         key.then(Text::mark("3", "key pass"))
-            .then(" others see the fault too · ")
+            .then(" others detect the fault too · ")
             .then(Text::mark("1", "key known"))
-            .then(" nothing else sees it: what would be lost with that check."),
+            .then(" nothing else detects it: the fault would be lost with that check."),
     );
     page.table("Faults and cases", table);
     page.note(Text::marked(

@@ -1,4 +1,4 @@
-//! The index: which scheme to take, how every scheme comes out in every case, at what price, and the cases.
+//! The index: recommended schemes, the result and cost of every scheme in every case, and the cases.
 
 use super::{docs, file_of, in_repository, pictures, run};
 use crate::cases;
@@ -25,8 +25,8 @@ pub(super) fn links() -> Vec<Text> {
         ("Speed against error", "#speed"),
         ("Cases", "#cases"),
         ("Legend", "#legend"),
-        ("What failed", "#failed"),
-        ("What ran", "#programs"),
+        ("Failures", "#failed"),
+        ("Programs", "#programs"),
         ("Seeded faults", "faults.html"),
     ];
     let files = ["summary.md", "summary.json", "junit.xml"].map(|file| (file, file));
@@ -52,18 +52,16 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     for line in counts.lines() {
         page.note(line);
     }
-    page.note(Text::marked(
-        "What a case is, what is known of it and why its tolerances are what they are: `docs/CASE.md`.",
-    ));
+    page.note(Text::marked("Definition, known results and tolerances of a case: `docs/CASE.md`."));
     legend(&mut page);
     failed(&mut page, summary);
-    page.section("programs", "What ran");
+    page.section("programs", "Programs");
     let machines = summary.cases.iter().flat_map(|s| &s.records).map(|r| {
         let m = &r.machine;
         format!("{} {}, {} cores, threads per run: {}", m.os, m.arch, m.cores, m.threads)
     });
     page.facts(distinct(machines).into_iter().map(|machine| ("machine", machine)));
-    page.table("What ran", programs(summary));
+    page.table("Programs", programs(summary));
     Ok(page)
 }
 
@@ -72,31 +70,31 @@ fn schemes(page: &mut Document) {
     page.section("advice", "Which scheme to take");
     let readme = in_repository("README.md", "README.md#which-scheme-to-take", "HEAD");
     let Some(table) = advice() else {
-        return page.paragraph(Text::from("The table of ").then(readme).then(" is not at hand."));
+        return page.paragraph(Text::from("The table of ").then(readme).then(" is not available."));
     };
     page.table("Which scheme to take", table);
     page.note(Text::from("The table of ").then(readme).then(Text::marked(
-        ". Its numbers are of the last nights, seconds of one core; standard MPM with the same functions and solver. Everything \
-         below is of this tier's runs, which are fewer. `docs/remedy.md`, `docs/implicit.md` and `docs/poromechanics.md` say why.",
+        ". Its numbers are from the last nights, in seconds of one core, against standard MPM with the same functions and solver. The \
+         sections below use this tier's runs only. Reasons: `docs/remedy.md`, `docs/implicit.md` and `docs/poromechanics.md`.",
     )));
 }
 
 fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
-    page.section("map", "Map: how every scheme comes out");
+    page.section("map", "Map: result of every scheme in every case");
     let panels = map::panels(summary.cases.iter().flat_map(|s| &s.records), speed);
     if panels.is_empty() {
-        return page.paragraph("There is no run.");
+        return page.paragraph("No runs.");
     }
     let key = |[symbol, text, class]: [&str; 3]| Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"));
     page.paragraph(Text::joined(map::legend().map(key), " · "));
     page.note(Text::marked(
-        "A cell shows the worst outcome of a scheme's runs in a case; it is pale if less than half of them came out so, and blank if \
-         there are none. Hover over it for the counts, follow it to the case. **Noisy**: more than half of the mean square of the \
-         stress is noise, where that is measured, be the run right or wrong as known. **CFL**: the largest stable Courant number \
+        "A cell shows the worst outcome of a scheme's runs in a case; it is pale if less than half of them have this outcome, and blank \
+         without runs. Hover over it for the counts, follow it to the case. **Noisy**: more than half of the mean square of the \
+         stress is noise, where that is measured, for runs that are right or wrong as known. **CFL**: the largest stable Courant number \
          (tested up to 1) of particles that lie regularly, and of a body that fills a hundredth of its last cell. **Cost**: \
          particle–node pairs for the target error of the motion (next table), over those of the cheapest scheme; the median over \
-         three motions or more, and in brackets in how many of those that were run the scheme gets there. A scheme is named by \
-         basis, remedy and transfer, and without a transfer it is FLIP; `static`, `midpoint` and `newmark` are implicit solvers \
+         three motions or more, and in brackets the number of motions in which the scheme reaches it. A scheme is named by \
+         basis, remedy and transfer, by default FLIP; `static`, `midpoint` and `newmark` are implicit solvers \
          ([legend](#legend)).",
     ));
     for panel in panels {
@@ -110,7 +108,7 @@ fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
 }
 
 fn price(page: &mut Document, summary: &Summary, speed: &Speed, picture: Option<Shown>) {
-    page.section("speed", "Speed against error: at what price");
+    page.section("speed", "Speed against error: cost of accuracy");
     if speed.is_empty() {
         return page.paragraph(Text::marked(
             "The runs of this tier have too few levels for a comparison; that of all nights is in `docs/remedy.md`.",
@@ -209,7 +207,7 @@ fn legend(page: &mut Document) {
 }
 
 fn failed(page: &mut Document, summary: &Summary) {
-    page.section("failed", "What failed");
+    page.section("failed", "Failures");
     let broken = verdicts::broken(summary).map(|(study, record, message)| {
         let mark = Text::marked("**⚠ Broke down:** ");
         mark.then(run(study, Some(record))).then(format!(": {message}"))

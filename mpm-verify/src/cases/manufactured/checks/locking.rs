@@ -19,7 +19,7 @@ pub(in crate::cases) const LOCKING_CURVE: Sweep =
 /// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {
     [
-        Gate::truth("no-locking", "fbar-total, fbar-rate, fbar-consistent up to 1 − 2ν = ε², all but linear functions: rms error of u at any Poisson's ratio at most 1.2 times that at 0.3, same steps")
+        Gate::truth("no-locking", "fbar-total, fbar-rate, fbar-consistent up to 1 − 2ν = ε², all but linear functions: rms error of u at most 1.2 times that at ν = 0.3, same steps")
             .when(|r| ratio(r) != COMPRESSIBLE)
             .when(|r| is_sound(r.remedy()) && r.basis() != Linear && !is_beyond_unseen(r))
             .pairs(is_soft_twin)
