@@ -1,6 +1,6 @@
 //! Checks of Cook's membrane. The tolerances are derived in `docs/cook.md`.
 
-use super::reference::{LoadShift, Measure, Solution, StressField};
+use super::reference::{Deflections, Measure, Solution, StressField};
 use super::run::CREEP;
 use super::*;
 use Measure::{EdgeMean, MidEdge, Tip};
@@ -151,8 +151,9 @@ impl Setup<Cook> {
     /// and the error of a locking-free element come to more than the tolerance.
     fn is_short(&self, of: Measure) -> bool {
         let held = self.is_judged() && self.is_held() && self.basis() == Gimp && self.h <= RESOLVED;
-        let falls_short =
-            |shift: &LoadShift| shift.of(of).abs() + of.element_error() * self.h * self.exact(of) > self.tolerance(of);
+        let falls_short = |shift: &Deflections| {
+            shift.of(of).abs() + of.element_error() * self.h * self.exact(of) > self.tolerance(of)
+        };
         held && self.load_shift().is_some_and(falls_short)
     }
 
@@ -166,7 +167,8 @@ impl Setup<Cook> {
     fn under_large_load(&self, of: Measure) -> Option<(f64, f64)> {
         let held = self.is_judged_place() && self.ghost >= HOLDS;
         let load = self.large_load().filter(|_| held)?;
-        Some((load.of(of), EDGE_TOLERANCE * self.h * load.of(of) + load.uncertainty))
+        let exact = load.deflections.of(of);
+        Some((exact, EDGE_TOLERANCE * self.h * exact + load.uncertainty))
     }
 
     /// Mean normal stress (Pa) of the reference at a point (m), and its tolerance: the point moved by a cell.

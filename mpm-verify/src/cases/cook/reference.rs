@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::statistics::rms;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
@@ -54,23 +55,33 @@ struct Document {
     load_inset: Vec<LoadShift>,
 }
 
-/// What the displacements (m) change by when the load acts on x = 48 m − h/4 instead of the side.
+/// Displacements u_y (m), or by how much they change.
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct LoadShift {
-    h: f64,
-    tip_uy_change: f64,
-    mid_edge_uy_change: f64,
-    edge_mean_uy_change: f64,
+pub(super) struct Deflections {
+    #[serde(alias = "mid_edge_uy_change")]
+    mid_edge_uy: f64,
+    #[serde(alias = "edge_mean_uy_change")]
+    edge_mean_uy: f64,
+    #[serde(alias = "tip_uy_change")]
+    tip_uy: f64,
 }
 
-impl LoadShift {
+impl Deflections {
     pub(super) fn of(&self, measure: Measure) -> f64 {
         match measure {
-            Measure::MidEdge => self.mid_edge_uy_change,
-            Measure::EdgeMean => self.edge_mean_uy_change,
-            Measure::Tip => self.tip_uy_change,
+            Measure::MidEdge => self.mid_edge_uy,
+            Measure::EdgeMean => self.edge_mean_uy,
+            Measure::Tip => self.tip_uy,
         }
     }
+}
+
+/// The change when the load acts on x = 48 m − h/4 instead of the side.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct LoadShift {
+    h: f64,
+    #[serde(flatten)]
+    change: Deflections,
 }
 
 /// A displacement (m).
@@ -121,27 +132,16 @@ impl Solution {
     }
 }
 
-/// Deflections of the right side (m) under a large load.
+/// Deflections under a large load.
 #[derive(Debug, Clone, Copy, Deserialize)]
 pub(super) struct LargeLoad {
     load_over_young_modulus: f64,
     /// Distance (m) of the load from the right side.
     load_inset: f64,
-    tip_uy: f64,
-    mid_edge_uy: f64,
-    edge_mean_uy: f64,
+    #[serde(flatten)]
+    pub(super) deflections: Deflections,
+    /// Uncertainty (m).
     pub(super) uncertainty: f64,
-}
-
-impl LargeLoad {
-    /// A displacement (m).
-    pub(super) fn of(&self, measure: Measure) -> f64 {
-        match measure {
-            Measure::MidEdge => self.mid_edge_uy,
-            Measure::EdgeMean => self.edge_mean_uy,
-            Measure::Tip => self.tip_uy,
-        }
-    }
 }
 
 fn document() -> Result<&'static Document, String> {
@@ -165,8 +165,8 @@ impl Setup<Cook> {
     }
 
     /// The change due to the load's place, if it is stored for these cells.
-    pub(super) fn load_shift(&self) -> Option<&'static LoadShift> {
-        document().ok()?.load_inset.iter().find(|s| s.h == self.h)
+    pub(super) fn load_shift(&self) -> Option<&'static Deflections> {
+        document().ok()?.load_inset.iter().find(|s| s.h == self.h).map(|s| &s.change)
     }
 
     /// The solution under a load of 10 to 50 N that acts h/4 from the side, if it is stored.
@@ -227,33 +227,19 @@ fn away_from_singularities(x: &[f64; 2]) -> bool {
     x[0] > SINGULAR && x[0].hypot(x[1]) > SINGULAR && x[0].hypot(x[1] - LEFT_HEIGHT) > SINGULAR
 }
 
-/// The reference field of mean normal stress at ν = 0.499, on a lattice of material points.
-pub(super) struct StressField {
-    columns: usize,
-    rows: usize,
-    values: Vec<Option<f64>>,
-}
+/// The reference field of mean normal stress (Pa) at ν = 0.499, on a lattice of material points.
+pub(super) struct StressField(BTreeMap<(usize, usize), f64>);
 
 impl StressField {
     /// The stored field.
     pub(super) fn stored() -> &'static Self {
         static STORED: LazyLock<StressField> = LazyLock::new(|| {
-            let (columns, rows) = (96, 120);
-            let mut values = vec![None; columns * rows];
             let mut reader = csv::Reader::from_reader(FIELD.as_bytes());
-            for (x, y, stress) in reader.deserialize::<(f64, f64, f64)>().flatten() {
-                let index = (x / LATTICE) as usize * rows + (y / LATTICE) as usize;
-                if let Some(value) = values.get_mut(index) {
-                    *value = Some(stress);
-                }
-            }
-            StressField { columns, rows, values }
+            let place = |x: f64| (x / LATTICE) as usize;
+            let points = reader.deserialize::<(f64, f64, f64)>().flatten();
+            StressField(points.map(|(x, y, stress)| ((place(x), place(y)), stress)).collect())
         });
         &STORED
-    }
-
-    fn at(&self, i: usize, j: usize) -> Option<f64> {
-        (i < self.columns && j < self.rows).then(|| self.values[i * self.rows + j])?
     }
 
     /// The field at a material point (m), bilinear between the four lattice points around it; `None`
@@ -269,7 +255,7 @@ impl StressField {
         for (di, ws) in [(0, 1.0 - s), (1, s)] {
             for (dj, wt) in [(0, 1.0 - t), (1, t)] {
                 if ws * wt > 1e-9 {
-                    sum += ws * wt * self.at(i + di, j + dj)?;
+                    sum += ws * wt * self.0.get(&(i + di, j + dj))?;
                 }
             }
         }
@@ -279,11 +265,10 @@ impl StressField {
     /// Root mean squares of |gradient| (Pa/m) and of the field (Pa) over the lattice points that
     /// count in the stress error.
     pub(super) fn rms_of_gradient_and_value(&self) -> (f64, f64) {
-        let counted = (0..self.columns * self.rows).filter_map(|k| {
-            let place = |i: usize| (i as f64 + 0.5) * LATTICE;
-            let x = [place(k / self.rows), place(k % self.rows)];
-            let value = self.values[k].filter(|_| away_from_singularities(&x))?;
-            Some((self.gradient(x, LATTICE)?, value))
+        let counted = self.0.iter().filter_map(|((i, j), value)| {
+            let x = [i, j].map(|k| (*k as f64 + 0.5) * LATTICE);
+            let gradient = away_from_singularities(&x).then(|| self.gradient(x, LATTICE))??;
+            Some((gradient, *value))
         });
         let (gradients, values): (Vec<f64>, Vec<f64>) = counted.unzip();
         (rms(gradients), rms(values))
@@ -319,7 +304,7 @@ mod tests {
     #[test]
     fn the_field_covers_the_membrane_and_nothing_else() {
         let field = StressField::stored();
-        assert_eq!(field.values.iter().flatten().count(), 5776);
+        assert_eq!(field.0.len(), 5776);
         assert!(field.interpolate([24.0, 36.0]).is_some());
         assert!(field.interpolate([24.0, 10.0]).is_none());
         assert!(field.interpolate([500.0, 10.0]).is_none());
