@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Where they lie, from this package's folder: what computes, and not what judges, reports or draws.
-pub(crate) const SOURCES: [&str; 19] = [
+pub(crate) const SOURCES: [&str; 18] = [
     "../.cargo/config.toml",
     "../Cargo.lock",
     "../Cargo.toml",
@@ -18,7 +18,6 @@ pub(crate) const SOURCES: [&str; 19] = [
     "solvers/src",
     CASES,
     "src/cases/manufactured/mod.rs",
-    "src/drive.rs",
     "src/job.rs",
     "src/probe.rs",
     "src/run",

@@ -40,16 +40,6 @@ impl Check {
         Self { name, kind, statement, on }
     }
 
-    /// Against an exact value, an independent reference or a law of physics.
-    pub(crate) fn truth(name: &'static str, statement: &'static str, on: On) -> Self {
-        Self::new(Kind::Truth, name, statement, on)
-    }
-
-    /// Check of a known limit: it fails if the limit vanishes.
-    pub(crate) fn known_limit(name: &'static str, statement: &'static str, on: On) -> Self {
-        Self::new(Kind::KnownLimit, name, statement, on)
-    }
-
     /// Check that a wrong solution passes as well, such as of its mass: it makes no run judged.
     pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
         Self::new(Kind::Bookkeeping, name, statement, on)
@@ -83,11 +73,6 @@ pub(crate) fn run<F: IntoIterator<Item = Finding>>(found: impl Fn(&Record) -> F 
     On::Run(Box::new(move |r| found(r).into_iter().collect()))
 }
 
-/// A check on the runs of a case together.
-pub(crate) fn study(found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> On {
-    On::Study(Box::new(found))
-}
-
 /// A metric of a run, to be held against something.
 pub(crate) fn judge(record: &Record, metric: Metric) -> Judged {
     Judged { metric, value: record.metric(metric) }
@@ -103,16 +88,6 @@ impl Judged {
     /// |value − reference| ≤ tolerance.
     pub(crate) fn within(self, reference: f64, tolerance: f64, why: impl Into<String>) -> Finding {
         Finding::within(self.metric, self.value, reference, tolerance, why)
-    }
-
-    /// value ≤ bound.
-    pub(crate) fn at_most(self, bound: f64, why: impl Into<String>) -> Finding {
-        Finding::at_most(self.metric, self.value, bound, why)
-    }
-
-    /// value > bound.
-    pub(crate) fn above(self, bound: f64, why: impl Into<String>) -> Finding {
-        Finding::above(self.metric, self.value, bound, why)
     }
 }
 

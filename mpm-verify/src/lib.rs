@@ -15,7 +15,6 @@ pub mod check;
 mod crash;
 pub mod demand;
 pub mod draw;
-pub mod drive;
 pub mod error;
 pub(crate) mod figure;
 pub mod files;

@@ -107,48 +107,10 @@ impl<P: ParameterSet> Setup<P> {
     }
 }
 
-/// How B-splines meet walls, by the parameter of that name.
-pub(super) fn wall_treatment(parameters: &Parameters) -> WallTreatment {
-    if parameters.is(WALL, WALL_LINE) { WallTreatment::WallLine } else { WallTreatment::OpenKnot }
-}
-
-/// Wall treatment and remedy of a run that takes steps of `dt` (s), and local damping if there is any.
-pub(super) fn settings<const D: usize>(
-    spec: &RunSpec,
-    parameters: &Parameters,
-    dt: f64,
-    damping: f64,
-) -> Result<Settings<D>, mpm_core::Error> {
-    let settings = Settings::new(dt).wall(wall_treatment(parameters)).remedy(spec.scheme.remedy().build());
-    match damping > 0.0 {
-        true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
-        false => Ok(settings),
-    }
-}
-
-/// The discretisation of a run in `dim` dimensions with steps of `dt` (s).
+/// Discretisation of a run in `dim` dimensions with steps of `dt` (s).
 pub(super) fn discretisation(dim: usize, spec: &RunSpec, parameters: &Parameters, dt: f64) -> Discretisation {
     let per_direction = parameters.number(PPC_PER_DIRECTION);
     Discretisation { dim, h: spec.level.h, ppc: per_direction.powi(dim as i32) as u32, dt, wall: parameters.text(WALL) }
-}
-
-/// That a run leaves alone those of `all` parameters with these `names`, which only another kind of solver has.
-///
-/// # Errors
-/// It changes one of them.
-pub(super) fn forbid(spec: &RunSpec, parameters: &Parameters, all: &[Parameter], names: &[&str]) -> Result<(), Error> {
-    let foreign = |p: &&Parameter| names.contains(&p.name);
-    for p in all.iter().filter(foreign) {
-        let (value, default) = (parameters.text(*p), p.parse(p.default)?.to_string());
-        if value != default {
-            return Err(Error::Input(format!(
-                "{} = {value} has no meaning with the solver {}; allowed: {default}",
-                p.name,
-                spec.scheme.solver()
-            )));
-        }
-    }
-    Ok(())
 }
 
 /// Whether a static step has found equilibrium. One that has not leaves the body as it was.
@@ -227,6 +189,8 @@ pub(super) fn checkerboard(field: &[f64], averaged: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scheme::{BasisName, RemedyName};
+    use crate::spec::Level;
 
     #[test]
     fn what_is_its_own_average_does_not_oscillate_and_a_checkerboard_does() {
@@ -244,7 +208,14 @@ mod tests {
     fn walls_are_open_knots_unless_the_parameter_says_otherwise() {
         let treatment = |set: &[&str]| {
             let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-            wall_treatment(&Parameters::new(&[WALL], &set).unwrap())
+            let spec = RunSpec {
+                scheme: Scheme::flip(BasisName::Gimp, RemedyName::None),
+                level: Level { name: "h1", h: 1.0 },
+                set,
+                perturbed: false,
+            };
+            let values = Parameters::new(&[WALL], &spec.set).unwrap();
+            Setup::<()>::of_spec(&spec, &values).unwrap().wall_treatment()
         };
         assert!(matches!(treatment(&[]), WallTreatment::OpenKnot));
         assert!(matches!(treatment(&["wall=wall-line"]), WallTreatment::WallLine));

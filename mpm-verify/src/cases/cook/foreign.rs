@@ -1,13 +1,10 @@
-//! What another code gives of the membrane.
+//! Columns that another code supplies, and the metrics computed from them.
 
-use super::metrics::{self as m, MEAN_STRESSES};
 use super::probes::Probes;
-use super::scene::start;
-use super::watch::energy_defect;
+use super::run::energy_defect;
+use super::*;
 use crate::cases::observe::{column, discretisation, start_columns};
-use crate::error::Error;
 use crate::foreign::{Asked, Foreign, Given, Group, Measured};
-use crate::scheme::{BasisName, RemedyName, Scheme};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
@@ -28,52 +25,47 @@ const LOSSES: Asked = Asked::series("damping_losses", "J/m", "what damping has t
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     Foreign {
-        judged_as: |_| Scheme::flip(BasisName::Bspline2, RemedyName::FbarConsistent),
+        judged_as: |_| Scheme::flip(Bspline2, FbarConsistent),
         discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
         groups: vec![
             Group {
                 columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
                 metrics: vec![
-                    m::MID_EDGE_UY,
-                    m::EDGE_MEAN_UY,
-                    m::TIP_UY,
-                    m::TIP_UY_NEAREST,
-                    m::TIP_UX,
-                    m::FEM_MID_EDGE_ERROR,
-                    m::FEM_EDGE_MEAN_ERROR,
-                    m::FEM_TIP_ERROR,
+                    MID_EDGE_UY,
+                    EDGE_MEAN_UY,
+                    TIP_UY,
+                    TIP_UY_NEAREST,
+                    TIP_UX,
+                    FEM_MID_EDGE_ERROR,
+                    FEM_EDGE_MEAN_ERROR,
+                    FEM_TIP_ERROR,
                 ],
                 measure: |given| {
-                    let (probes, _) = probes(given)?;
                     let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
-                    Ok(probes.of_displacement(moved, &given.parameters))
+                    Ok(probes(given)?.of_displacement(moved, &setup(given)?))
                 },
             },
             Group {
                 columns: &[START_X, START_Y, MEAN_STRESS],
-                metrics: [m::MEAN_STRESS_RMS_ERROR, m::MEAN_STRESS_RMS].into_iter().chain(stresses).collect(),
-                measure: |given| {
-                    let (probes, references) = probes(given)?;
-                    let stress = given.column(&MEAN_STRESS);
-                    Ok(probes.of_stress(&references, stress, &given.parameters))
-                },
+                metrics: [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses).collect(),
+                measure: |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &setup(given)?)),
             },
             Group {
                 columns: &[REACTION],
-                metrics: vec![m::REACTION_UY],
+                metrics: vec![REACTION_UY],
                 measure: |given| {
                     let last = given.column(&REACTION).last();
-                    Ok(vec![(m::REACTION_UY, last.copied().unwrap_or(f64::NAN))])
+                    Ok(vec![(REACTION_UY, last.copied().unwrap_or(f64::NAN))])
                 },
             },
             Group {
                 columns: &[KINETIC, STRESS_WORK, LOAD_WORK, LOSSES],
-                metrics: vec![m::ENERGY_GAIN],
+                metrics: vec![ENERGY_GAIN],
                 measure: energy_gain,
             },
         ],
         start: |spec, parameters| {
-            let particles = start(spec, parameters)?;
+            let particles = Setup::<Cook>::of_spec(spec, parameters)?.loaded_particles()?;
             let mut columns = start_columns(&particles);
             let load = particles.seeded(|k| particles.external_force[k][1]);
             columns.push(column("load_y", "N/m", load));
@@ -89,12 +81,13 @@ pub(in crate::cases) fn foreign() -> Foreign {
     }
 }
 
-/// The probes in the particles of a code, and where those start.
-fn probes(given: &Given) -> Result<(Probes, Vec<[f64; 2]>), Error> {
-    let references = given.points([&START_X, &START_Y]);
-    // The cells of a code need not have as many particles as ours; two cells are as wide for all.
-    let probes = Probes::new(&references, 2.0 * given.spec.level.h)?;
-    Ok((probes, references))
+fn setup(given: &Given) -> Result<Setup<Cook>, Error> {
+    Setup::of_spec(&given.spec, &given.parameters)
+}
+
+/// The probes in the particles of a code. Its cells need not have as many particles as ours; two cells are as wide for all.
+fn probes(given: &Given) -> Result<Probes, Error> {
+    Probes::new(given.points([&START_X, &START_Y]), given.spec.level.h)
 }
 
 fn energy_gain(given: &Given) -> Measured {
@@ -102,5 +95,5 @@ fn energy_gain(given: &Given) -> Measured {
     let rows = 0..kinetic.len();
     let defects = rows.map(|k| energy_defect(kinetic[k], stress[k], losses[k], load[k]));
     let gain = defects.fold(0.0, f64::max) / load.last().copied().unwrap_or(f64::NAN);
-    Ok(vec![(m::ENERGY_GAIN, gain)])
+    Ok(vec![(ENERGY_GAIN, gain)])
 }

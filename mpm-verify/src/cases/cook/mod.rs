@@ -3,40 +3,110 @@
 //! Section 4.1 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/cook.md`.
 
 mod checks;
-mod equilibrium;
+mod figures;
 pub(super) mod foreign;
-mod geometry;
-mod metrics;
-mod parameters;
-mod pictures;
 mod probes;
 mod reference;
-mod scene;
-mod sketch;
-mod tables;
-mod watch;
+mod run;
 
-use super::family::{REMEDIES, family, more_particles, other_transfers, pairs};
-use crate::case::{Case, Family, FieldView, Tier};
-use crate::metric::{Sweep, error, value};
-use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::spec::{Level, RunSpec};
-use equilibrium::Pressed;
-use metrics::{FEM_EDGE_MEAN_ERROR, MEAN_STRESS_RMS_ERROR, TIP_UX, headlines};
-use parameters::POISSON_RATIO;
-use scene::forbid_static;
-use watch::Loaded;
+use super::family::{REMEDIES, main_pairs, other_transfers, pairs, transfers};
+use super::parameters as common;
+use crate::parameter::Parameter;
+use crate::prelude::*;
+use crate::results::BASIS;
+use reference::{LEFT_HEIGHT, LENGTH, MID_EDGE, TIP};
 
-use BasisName::{Bspline2, Bspline3, Gimp};
-use RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
-use Tier::{Long, Nightly, Pr, Quick};
+/// Levels with their cell sizes (m) and titles.
+const LEVELS: [(&str, f64, &str); 4] =
+    [("h2", 2.0, "h = 2 m"), ("h1", 1.0, "h = 1 m"), ("h0.5", 0.5, "h = ½ m"), ("h0.25", 0.25, "h = ¼ m")];
+const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
+
+choices! {
+    /// Particles that carry the load.
+    enum LoadAt { Column = "column", Edge = "edge" }
+}
+
+parameters! {
+    /// Parameters of the membrane.
+    struct Cook {
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("70");
+        poisson_ratio: f64 = POISSON_RATIO;
+        density: f64 = common::DENSITY.with_default("1"), "density ρ; the state of rest does not depend on it";
+        load: f64 = real("N/m", "1", 1e-12, 1e12), "total upward dead load on the right side, per metre of depth";
+        load_ramp: f64 = real("periods", "0.08", 0.0, 10.0),
+            "time over which the load grows, in fundamental periods";
+        load_at: LoadAt = LoadAt::Column.by_default(),
+            "column: the last column of particles carries the load, at x = 48 m − h/4 for two particles per direction; edge: the last two columns carry 3/2 and −1/2 of it, whose resultant then acts on x = 48 m";
+        damping: f64 = common::DAMPING;
+        kinetic_damping: bool = flag(true), "zero the velocities at every peak of the kinetic energy";
+        cfl: f64 = common::CFL.with_default("0.3");
+        flip: f64 = common::FLIP;
+        wall: common::Wall = common::WALL, "how B-splines meet the clamped side";
+        max_periods: f64 = real("periods", "2", 1e-3, 1e3),
+            "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
+        rest_window: f64 = real("periods", "0.05", 1e-3, 10.0), "time over which the criterion of rest must hold";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        load_steps: i32 = common::LOAD_STEPS,
+            "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved";
+        ghost: f64 = real("-", "1e-8", 0.0, 1.0),
+            "quasi-static: ghost penalty, in shares of Young's modulus; the root of rounding, which only keeps the matrix regular; 0: none";
+    }
+}
+
+metrics! { OWN:
+    MID_EDGE_UY = "mid_edge_uy", "m",
+        "u_y of the middle of the right side, (48, 52) m, by a linear fit over the particles within 2h";
+    EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y averaged over the right side, from such fits at eight points";
+    TIP_UY = "tip_uy", "m", "u_y of the upper right corner, (48, 60) m, by such a fit";
+    TIP_UY_NEAREST = "tip_uy_nearest", "m", "u_y of the particle nearest to that corner";
+    TIP_UX = "tip_ux", "m", "u_x of that corner, by the fit";
+    MEAN_STRESS_RMS_ERROR = "mean_stress_rms_error", "Pa",
+        "rms over particles with x > 3 m, 3 m away from the clamped corners, of the mean normal stress minus the reference";
+    MEAN_STRESS_RMS = "mean_stress_rms", "Pa", "rms over all particles of the mean normal stress";
+    CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over all particles of σ_m − Πσ_m";
+    CHECKERBOARD_RATIO = "checkerboard_ratio", "-", "checkerboard_rms over mean_stress_rms";
+    CREEP_RATE = "creep_rate", "1/s", "slope of rms ln(J/J̄) against time over the second half of the run";
+    CREEP_LINEARITY = "creep_linearity", "-", "R² of that straight line";
+    LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
+    AT_REST = "at_rest", "-", "1 if the criterion of rest was met, 0 if the run was stopped without";
+    REST_TIME = "rest_time", "s", "time at the end of the run";
+    WORK_RESIDUAL = "work_residual", "-",
+        "largest out-of-balance virtual work over the last window, relative to that of the load";
+    REACTION_UY = "reaction_uy", "N/m", "vertical reaction of the clamped side";
+    MASS = "mass", "kg/m", "mass of the particles";
+    SEEDED_VOLUME = "seeded_volume", "m²", "reference volume of the particles; the membrane's is 1,440 m²";
+    ENERGY_GAIN = "energy_gain", "-",
+        "largest kinetic energy + stress work + losses − load work over the run, relative to the final load work";
+    ENERGY_LOSS = "energy_loss", "-",
+        "largest excess of the load's work, likewise: what the transfer dissipates";
+    PERIOD = "period", "s", "nominal fundamental period";
+    REACTION_ERROR = "reaction_error", "-",
+        "quasi-static: distance of the clamp's reaction from the load over the load; 10⁻⁹ if it is less";
+    NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton iterations of all steps";
+    LINEAR_ITERATIONS = "linear_iterations", "-",
+        "quasi-static: solutions by factors, with F̄ iterations of conjugate gradients";
+    FEM_MID_EDGE_ERROR = "fem_mid_edge_error", "-", "relative error of mid_edge_uy";
+    FEM_EDGE_MEAN_ERROR = "fem_edge_mean_error", "-", "relative error of edge_mean_uy";
+    FEM_TIP_ERROR = "fem_tip_error", "-", "relative error of tip_uy";
+}
+
+metrics! {
+    /// The mean normal stress at material points (m).
+    MEAN_STRESSES at [f64; 2]:
+    [24.0, 36.0] => "mean_stress_24_36", "Pa",
+        "mean normal stress at the material point (24, 36) m, by a linear fit";
+    [16.0, 30.0] => "mean_stress_16_30", "Pa", "likewise at (16, 30) m";
+    [36.0, 48.0] => "mean_stress_36_48", "Pa", "likewise at (36, 48) m";
+    [24.0, 24.0] => "mean_stress_24_24", "Pa", "likewise at (24, 24) m";
+    [8.0, 20.0] => "mean_stress_8_20", "Pa", "likewise at (8, 20) m";
+    [8.0, 40.0] => "mean_stress_8_40", "Pa", "likewise at (8, 40) m";
+    [44.0, 52.0] => "mean_stress_44_52", "Pa", "likewise at (44, 52) m";
+}
 
 pub(super) fn case() -> Case {
-    let sizes = [("h2", 2.0), ("h1", 1.0), ("h0.5", 0.5), ("h0.25", 0.25)];
-    let levels = sizes.map(|(name, h)| Level { name, h });
+    let levels = LEVELS.map(|(name, h, _)| Level { name, h });
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(MEAN_STRESSES.iter().map(|(metric, _)| *metric)).collect();
     Case {
-        name: "cook",
-        title: "Cook's membrane",
         description: "A tapered membrane of nearly incompressible neo-Hookean rubber (plane strain, ν = 0.499), \
                       clamped on the left, sheared by a dead load on the right; run to rest. Standard MPM locks; \
                       the F̄ remedies don't; the recursive one creeps and never rests.",
@@ -47,13 +117,52 @@ pub(super) fn case() -> Case {
             "The state of rest is approached by kinetic damping; the path to it has no physical meaning.",
             "With fbar-consistent the error does not fall from h = 1 m to ½ m: what the edge of the body adds stays.",
         ],
-        parameters: parameters::ALL.to_vec(),
-        plan: plan(levels),
+        plan: plan(&levels),
         levels: levels.to_vec(),
-        metrics: metrics::all(),
-        wanted: Vec::new(),
+        wanted: vec![
+            Wanted::new(
+                "deflection",
+                "displacement of the right side at rest",
+                &["mid-edge", "edge-mean", "tip", "load-at-its-place", "large-loads"],
+            )
+            .missed_by(&[
+                "locked",
+                "locks",
+                "creep",
+                "never-at-rest",
+                "rests-late",
+                "soft-rim",
+                "short-by-the-loads-place",
+                "too-stiff-with-more-particles",
+                "too-soft-when-compressible",
+            ]),
+            Wanted::new(
+                "pressure",
+                "mean stress at rest, rms and at seven points",
+                &["mean-stress-rms", "mean-stress-probe", "smooth-pressure"],
+            )
+            .missed_by(&[
+                "locked",
+                "locks",
+                "creep",
+                "never-at-rest",
+                "rests-late",
+                "noisy-pressure",
+                "pressure-near-free-side",
+            ]),
+        ],
         checks: checks::checks(),
-        headlines: headlines(),
+        headlines: vec![
+            headline(FEM_MID_EDGE_ERROR, "mid-edge error (%)", 100.0, 2),
+            headline(FEM_EDGE_MEAN_ERROR, "edge-mean error (%)", 100.0, 2),
+            headline(FEM_TIP_ERROR, "tip error (%)", 100.0, 2),
+            headline(MEAN_STRESS_RMS_ERROR, "σ_m rms error (mPa)", 1e3, 1),
+            headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
+            headline(AT_REST, "at rest (1: yes)", 1.0, 0),
+            headline(REST_TIME, "time at the end (s)", 1.0, 0),
+            headline(CREEP_RATE, "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2),
+            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
+        ],
         quantities: vec![
             error(FEM_EDGE_MEAN_ERROR, "relative error of edge-mean u_y"),
             error(MEAN_STRESS_RMS_ERROR, "rms error of σ_m (Pa)"),
@@ -73,105 +182,204 @@ pub(super) fn case() -> Case {
             range: (-1.0, 1.0),
             window: [(0.0, 48.0), (0.0, 60.0)],
         }),
-        sketch: sketch::sketch(),
+        sketch: sketch(),
         cost: Box::new(cost),
-        ladder: &[],
-        own_runs: checks::own_runs,
-        begin: Box::new(|spec, parameters| {
-            Ok(match spec.scheme {
-                Scheme::Implicit(_) | Scheme::Poro(_) => Box::new(Pressed::drive(spec, parameters)?),
-                Scheme::Explicit(_) => {
-                    forbid_static(spec, parameters)?;
-                    Box::new(Loaded::drive(spec, parameters)?)
-                }
-            })
-        }),
-        pictures: pictures::draw,
-        tables: tables::all(),
-        breaks_down: |_| None,
+        own_runs,
+        pictures: figures::draw,
+        tables: tables(),
+        ..Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
     }
 }
 
 fn cost(spec: &RunSpec) -> f64 {
     let sweep = match spec.scheme.remedy() {
         RemedyName::None => 1.0,
-        RemedyName::FbarRecursive => 2.5,
-        RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,
-        RemedyName::FbarConsistent => 3.0,
+        FbarRecursive => 2.5,
+        FbarTotal | FbarRate => 1.5,
+        FbarConsistent => 3.0,
     };
     sweep / spec.level.h.powi(3)
 }
 
-// The state of rest hardly depends on the time step (see the page): near each one's limit.
-const HALVED: &[&str] = &["cfl=0.15"];
-const LARGE: &[&str] = &["cfl=0.6"];
-const GIMPS: &[&str] = &["cfl=0.45"];
-// One step, on the lattice: what an equilibrium costs at least; with and without functions of the rim held.
-const ONE_STEP: &[&str] = &["load_steps=1"];
-const HELD: &[&str] = &["load_steps=1", "ghost=0.001"];
-// Loads under which explicit bodies leave the grid, with functions of the rim held.
-const LARGE_LOADS: [&[&str]; 5] = [
-    &["load=10", "load_steps=5", "ghost=0.001"],
-    &["load=20", "load_steps=8", "ghost=0.001"],
-    &["load=30", "load_steps=12", "ghost=0.001"],
-    &["load=40", "load_steps=16", "ghost=0.001"],
-    &["load=50", "load_steps=20", "ghost=0.001"],
-];
-
-/// Quasi-static, without a remedy and with ours.
-fn statics(bases: &[BasisName]) -> Vec<Scheme> {
-    let of = |&basis: &BasisName| [RemedyName::None, FbarConsistent].map(|remedy| Scheme::quasi_static(basis, remedy));
-    bases.iter().flat_map(of).collect()
+/// One record for each scheme and level at the case's own parameters. A state of rest hardly depends on the time step:
+/// where there is no such record, one with another time step stands in, but for schemes that never come to rest.
+fn own_runs(records: &[Record]) -> Vec<&Record> {
+    let same = |a: &Record, b: &Record| a.scheme() == b.scheme() && a.level == b.level;
+    let has_default = |r: &Record| records.iter().any(|d| d.is_default() && same(d, r));
+    let own = records.iter().filter(|r| r.is_default() || (differs_in_step(r) && !has_default(r)));
+    own.collect()
 }
 
-fn plan([h2, h1, half, quarter]: [Level; 4]) -> Vec<Family> {
+/// Whether a run that comes to rest differs from the case's own in its time step only.
+fn differs_in_step(r: &Record) -> bool {
+    r.changes_only("cfl") && r.remedy() != FbarRecursive
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
     let none = RemedyName::None;
     let three = [Gimp, Bspline2, Bspline3];
     let gimp = |remedies: &[RemedyName]| pairs(&[Gimp], remedies);
+    let quadratic = |remedies: &[RemedyName]| pairs(&[Bspline2], remedies);
     let two = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
-    let every = pairs(&three, &REMEDIES);
-    let averages = two(&[none, FbarTotal, FbarRate]);
-    let rate = two(&[FbarRate]);
-    let totals = two(&[FbarTotal, FbarRate]);
-    let cubic = pairs(&[Bspline3], &[none, FbarTotal, FbarRate]);
-    let averaged = [Gimp, Bspline2].map(|basis| Scheme::quasi_static(basis, FbarConsistent));
-    let [three_per, four_per] = more_particles(Long, &[h2, h1]);
-    let mut all = vec![
-        family(Quick, &[h2], &gimp(&REMEDIES), &[]),
-        family(Quick, &[h2], &gimp(&[FbarRecursive]), HALVED),
-        family(Pr, &[h2], &two(&REMEDIES), &[]),
-        family(Pr, &[h2], &pairs(&[Bspline3], &REMEDIES[..4]), &[]),
-        family(Pr, &[h1], &gimp(&[none, FbarRecursive]), &[]),
-        family(Pr, &[h1], &pairs(&[Bspline2], &[none]), &[]),
-        family(Pr, &[h1], &gimp(&[FbarConsistent]), LARGE),
-        family(Nightly, &[h2], &every, &[]),
-        family(Nightly, &[h1], &every, &[]),
-        family(Nightly, &[half, quarter], &gimp(&[none]), GIMPS),
-        family(Nightly, &[half, quarter], &pairs(&[Bspline2], &[none]), LARGE),
-        family(Nightly, &[half], &rate, LARGE),
-        family(Nightly, &[half], &pairs(&three, &REMEDIES[..4]), &[]),
-        family(Nightly, &[h2], &pairs(&three, &[FbarRecursive]), HALVED),
-        family(Nightly, &[quarter], &rate, &[]),
-        family(Nightly, &[h1], &averages, &["poisson_ratio=0.3"]),
-        family(Nightly, &[h1], &averages, &["poisson_ratio=0.49"]),
-        family(Nightly, &[h1], &averages, &["poisson_ratio=0.4999"]),
-        family(Nightly, &[h1], &totals, &["load_at=edge"]),
-        family(Nightly, &[h1], &pairs(&[Bspline2], &[none, FbarRate]), &["wall=wall-line"]),
-        family(Nightly, &[h1], &gimp(&[FbarRate]), &["rest_window=1", "max_periods=5"]),
-        family(Long, &[quarter], &pairs(&three, &[FbarRecursive]), &[]),
-        family(Long, &[quarter], &two(&[FbarTotal]), LARGE),
-        family(Long, &[quarter], &cubic, LARGE),
-        family(Long, &[half], &pairs(&three, &[FbarConsistent]), &[]),
-        family(Long, &[quarter], &pairs(&three, &[FbarConsistent]), LARGE),
-        family(Long, &[h2, h1, half, quarter], &other_transfers(), &[]),
-        three_per,
-        four_per,
-        family(Pr, &[h2, h1], &statics(&[Gimp, Bspline2]), &[]),
-        family(Pr, &[h1], &averaged, HELD),
-        family(Nightly, &[h2, h1, half, quarter], &averaged, ONE_STEP),
-        family(Nightly, &[h1, half], &averaged, &["ghost=0.001"]),
-        family(Nightly, &[half, quarter], &statics(&[Gimp, Bspline2]), &[]),
+    let (every, averages) = (pairs(&three, &REMEDIES), two(&[none, FbarTotal, FbarRate]));
+    let of_static = |basis, remedy| Scheme::quasi_static(basis, remedy);
+    let averaged = [Gimp, Bspline2].map(|basis| of_static(basis, FbarConsistent));
+    let statics = [Gimp, Bspline2].map(|basis| [none, FbarConsistent].map(|r| of_static(basis, r)));
+    // Loads under which explicit bodies leave the grid, in so many steps, with functions of the rim held.
+    let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16), (50, 20)];
+    // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
+    Plan::of(levels)
+        .runs(Quick, "h2", &gimp(&REMEDIES), "")
+        .runs(Quick, "h2", &gimp(&[FbarRecursive]), "cfl=0.15")
+        .runs(Pr, "h2", &two(&REMEDIES), "")
+        .runs(Pr, "h2", &pairs(&[Bspline3], &REMEDIES[..4]), "")
+        .runs(Pr, "h1", &gimp(&[none, FbarRecursive]), "")
+        .runs(Pr, "h1", &quadratic(&[none]), "")
+        .runs(Pr, "h1", &gimp(&[FbarConsistent]), "cfl=0.6")
+        .runs(Nightly, "h2", &every, "")
+        .runs(Nightly, "h1", &every, "")
+        .runs(Nightly, "h0.5 h0.25", &gimp(&[none]), "cfl=0.45")
+        .runs(Nightly, "h0.5 h0.25", &quadratic(&[none]), "cfl=0.6")
+        .runs(Nightly, "h0.5", &two(&[FbarRate]), "cfl=0.6")
+        .runs(Nightly, "h0.5", &pairs(&three, &REMEDIES[..4]), "")
+        .runs(Nightly, "h2", &pairs(&three, &[FbarRecursive]), "cfl=0.15")
+        .runs(Nightly, "h0.25", &two(&[FbarRate]), "")
+        .each(Nightly, "h1", &averages, ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"])
+        .runs(Nightly, "h1", &two(&[FbarTotal, FbarRate]), "load_at=edge")
+        .runs(Nightly, "h1", &quadratic(&[none, FbarRate]), "wall=wall-line")
+        .runs(Nightly, "h1", &gimp(&[FbarRate]), "rest_window=1 max_periods=5")
+        .runs(Long, "h0.25", &pairs(&three, &[FbarRecursive]), "")
+        .runs(Long, "h0.25", &two(&[FbarTotal]), "cfl=0.6")
+        .runs(Long, "h0.25", &pairs(&[Bspline3], &[none, FbarTotal, FbarRate]), "cfl=0.6")
+        .runs(Long, "h0.5", &pairs(&three, &[FbarConsistent]), "")
+        .runs(Long, "h0.25", &pairs(&three, &[FbarConsistent]), "cfl=0.6")
+        .runs(Long, "h2 h1 h0.5 h0.25", &other_transfers(), "")
+        .each(Long, "h2 h1", &main_pairs(), ["ppc_per_direction=3", "ppc_per_direction=4"])
+        .runs(Pr, "h2 h1", statics.as_flattened(), "")
+        // One step, on the lattice: what an equilibrium costs at least; with and without functions of the rim held.
+        .runs(Pr, "h1", &averaged, "load_steps=1 ghost=0.001")
+        .runs(Nightly, "h2 h1 h0.5 h0.25", &averaged, "load_steps=1")
+        .runs(Nightly, "h1 h0.5", &averaged, "ghost=0.001")
+        .runs(Nightly, "h0.5 h0.25", statics.as_flattened(), "")
+        .each(
+            Nightly,
+            "h1",
+            &statics[1],
+            large_loads.map(|(load, steps)| format!("load={load} load_steps={steps} ghost=0.001")),
+        )
+        .done()
+}
+
+fn sketch() -> Sketch {
+    let probe = |at, label: &str| Shape::Probe { at, label: label.to_owned() };
+    let mut shapes = vec![
+        Shape::Body(vec![[0.0, 0.0], [LENGTH, LEFT_HEIGHT], TIP, [0.0, LEFT_HEIGHT]]),
+        Shape::Held([0.0, 0.0], [0.0, LEFT_HEIGHT]),
+        Shape::length([0.0, -6.0], [LENGTH, -6.0], "48 m"),
+        Shape::length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m"),
+        Shape::length([58.0, LEFT_HEIGHT], [58.0, TIP[1]], "16 m"),
+        Shape::note([52.0, 40.0], "1 N/m"),
     ];
-    all.extend(LARGE_LOADS.map(|set| family(Nightly, &[h1], &statics(&[Bspline2]), set)));
-    all
+    for k in 0..4 {
+        let y = LEFT_HEIGHT + 4.0 * f64::from(k);
+        shapes.push(Shape::Load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2]));
+    }
+    shapes.extend([probe(TIP, "tip"), probe(MID_EDGE, "mid-edge")]);
+    shapes.extend(MEAN_STRESSES.iter().map(|(_, x)| probe(*x, "σ_m")));
+    Sketch {
+        shapes,
+        description: "A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.",
+    }
+}
+
+fn tables() -> Vec<ResultTable> {
+    fn error(r: &Record) -> String {
+        percent(2).text(r.metric(FEM_MID_EDGE_ERROR))
+    }
+    /// The error; of a run that never rests, when it was measured.
+    fn error_at_rest(r: &Record) -> String {
+        match r.metric(AT_REST) == 1.0 {
+            true => error(r),
+            false => format!("creeping: {} after {:.0} s", error(r), r.metric(REST_TIME)),
+        }
+    }
+    fn is_static(r: &Record) -> bool {
+        r.transfer() == TransferName::None
+    }
+    // Where no run has the case's own time step one with another stands in.
+    let is_shown = |r: &Record| is_flip(r) && (r.is_default() || differs_in_step(r));
+    let over_levels = |what: &str, text: fn(&Record) -> String| {
+        LEVELS.map(|(level, _, title)| Column::text(format!("{what}, {title}"), text).of(move |r| r.level == level))
+    };
+    let noise = |r: &Record| fixed(2).text(r.metric(CHECKERBOARD_RATIO));
+
+    // What is said first: locking, creep and where convergence stops.
+    let overview = [
+        (RemedyName::None, "h1", "1 m"),
+        (RemedyName::None, "h0.5", "½ m"),
+        (FbarRecursive, "h1", "1 m"),
+        (FbarConsistent, "h2", "2 m"),
+        (FbarConsistent, "h1", "1 m"),
+        (FbarConsistent, "h0.5", "½ m"),
+    ]
+    .map(|(remedy, level, h)| {
+        Column::text(format!("{remedy}, {h}"), move |r| format!("{}, {}", error_at_rest(r), noise(r)))
+            .of(move |r| r.remedy() == remedy && r.level == level)
+    });
+
+    const RATIOS: [(&str, &[&str]); 4] = [
+        ("0.3", &["poisson_ratio=0.3"]),
+        ("0.49", &["poisson_ratio=0.49"]),
+        ("0.499", &[]),
+        ("0.4999", &["poisson_ratio=0.4999"]),
+    ];
+    let over_ratios = |what: &str, text: fn(&Record) -> String| {
+        RATIOS.map(|(ratio, set)| Column::text(format!("{what}, ν = {ratio}"), text).of(move |r| r.set == set))
+    };
+    let at_ratios = |r: &Record| {
+        let own = [RemedyName::None, FbarRate].contains(&r.remedy());
+        own && is_flip(r) && r.level == "h1" && RATIOS.iter().any(|(_, set)| r.set == *set)
+    };
+
+    let of_static = over_levels("mid-edge error", error)
+        .into_iter()
+        .chain([Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1")])
+        .chain(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s)));
+    let of_rim = [
+        Column::text("mid-edge error", error),
+        Column::value("of the load at its place", checks::mid_edge_error, percent(2)),
+        Column::metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4)),
+        Column::metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
+        Column::metric("linear iterations", LINEAR_ITERATIONS, fixed(0)),
+    ];
+    vec![
+        ResultTable::new(
+            "cook",
+            is_shown,
+            &[SCHEME],
+            over_levels("mid-edge error", error_at_rest).into_iter().chain(over_levels("checkerboard", noise)),
+        ),
+        ResultTable::new("cook-overview", is_shown, &[BASIS], overview),
+        transfers("cook-transfers", &[PAIR, CELLS], &["3", "4"], error),
+        ResultTable::new(
+            "cook-poisson",
+            at_ratios,
+            &[SCHEME],
+            over_ratios("mid-edge error", error_at_rest).into_iter().chain(over_ratios("checkerboard", noise)),
+        )
+        .least(3),
+        ResultTable::new(
+            "cook-static",
+            |r| is_static(r) && r.changes_none_but(&["load_steps"]),
+            &[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))],
+            of_static,
+        ),
+        // What a rim that is held, one step, and a larger load come to.
+        ResultTable::new(
+            "cook-rim",
+            |r| is_static(r) && r.level == "h1",
+            &[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })],
+            of_rim,
+        ),
+    ]
 }

@@ -1,19 +1,17 @@
-//! Where the membrane is probed, and what is measured there of its displacements and stresses, whoever computed them.
+//! Probes of the membrane, and the metrics of its displacements and stresses, from any solver.
 
-use super::geometry::{LEFT_HEIGHT, LENGTH, RIGHT_HEIGHT, away_from_singularities};
-use super::metrics::{self as m, MEAN_STRESSES};
-use super::reference::{Field as Reference, solution, stress_scale};
-use crate::error::Error;
-use crate::metric::Metric;
-use crate::parameter::Parameters;
+use super::reference::{LEFT_HEIGHT, Measure, RIGHT_HEIGHT};
+use super::*;
 use crate::probe::{PointProbe, nearest};
 use crate::statistics::rms;
 
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;
 
-/// Where the membrane is probed.
+/// Probes in particles.
 pub(super) struct Probes {
+    /// Initial positions (m) of the particles.
+    references: Vec<[f64; 2]>,
     pub(super) mid_edge: PointProbe,
     pub(super) tip: PointProbe,
     edge: Vec<PointProbe>,
@@ -22,83 +20,51 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// In particles at `references` (m), each within `radius` (m).
+    /// In particles at `references` (m) on cells of size `h` (m).
     ///
     /// # Errors
     /// Too few particles.
-    pub(super) fn new(references: &[[f64; 2]], radius: f64) -> Result<Self, Error> {
-        let at = |x: f64, y: f64| {
-            PointProbe::new(references, [x, y], radius)
+    pub(super) fn new(references: Vec<[f64; 2]>, h: f64) -> Result<Self, Error> {
+        let at = |[x, y]: [f64; 2]| {
+            PointProbe::new(&references, [x, y], 2.0 * h)
                 .ok_or_else(|| Error::Input(format!("no particles near ({x}, {y}) m to probe")))
         };
-        let tip = LEFT_HEIGHT + RIGHT_HEIGHT;
         let share = |k: usize| (k as f64 + 0.5) / EDGE_POINTS as f64;
+        let on_edge = |k| at([LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT * share(k)]);
+        let stress = MEAN_STRESSES.iter().map(|(metric, place)| Ok((*metric, at(*place)?)));
         Ok(Self {
-            mid_edge: at(LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT)?,
-            tip: at(LENGTH, tip)?,
-            edge: (0..EDGE_POINTS)
-                .map(|k| at(LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT * share(k)))
-                .collect::<Result<_, _>>()?,
-            stress: MEAN_STRESSES
-                .iter()
-                .map(|(metric, [x, y])| Ok((*metric, at(*x, *y)?)))
-                .collect::<Result<_, Error>>()?,
-            tip_particle: nearest(references, [LENGTH, tip]),
+            mid_edge: at(MID_EDGE)?,
+            tip: at(TIP)?,
+            edge: (0..EDGE_POINTS).map(on_edge).collect::<Result<_, _>>()?,
+            stress: stress.collect::<Result<_, Error>>()?,
+            tip_particle: nearest(&references, TIP),
+            references,
         })
     }
 
-    fn edge_mean(&self, uy: &[f64]) -> f64 {
-        self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64
-    }
-
-    /// What is measured of displacements along x and y (m).
-    pub(super) fn of_displacement(&self, [ux, uy]: [&[f64]; 2], parameters: &Parameters) -> Vec<(Metric, f64)> {
-        let mid_edge = self.mid_edge.value(uy);
-        let edge_mean = self.edge_mean(uy);
-        let tip = self.tip.value(uy);
-        let mut values = vec![
-            (m::MID_EDGE_UY, mid_edge),
-            (m::EDGE_MEAN_UY, edge_mean),
-            (m::TIP_UY, tip),
-            (m::TIP_UY_NEAREST, uy[self.tip_particle]),
-            (m::TIP_UX, self.tip.value(ux)),
-        ];
-        if let Ok(reference) = solution(parameters) {
-            let errors = [
-                (m::FEM_MID_EDGE_ERROR, mid_edge / reference.mid_edge.uy),
-                (m::FEM_EDGE_MEAN_ERROR, edge_mean / reference.edge_mean_uy),
-                (m::FEM_TIP_ERROR, tip / reference.tip.uy),
-            ];
-            values.extend(errors.map(|(metric, ratio)| (metric, ratio - 1.0)));
+    /// Metrics of displacements along x and y (m).
+    pub(super) fn of_displacement(&self, [ux, uy]: [&[f64]; 2], setup: &Setup<Cook>) -> Vec<(Metric, f64)> {
+        let of = |measure| match measure {
+            Measure::MidEdge => self.mid_edge.value(uy),
+            Measure::EdgeMean => self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64,
+            Measure::Tip => self.tip.value(uy),
+        };
+        let mut values = vec![(TIP_UY_NEAREST, uy[self.tip_particle]), (TIP_UX, self.tip.value(ux))];
+        for measure in Measure::ALL {
+            let [metric, error] = measure.metrics();
+            values.push((metric, of(measure)));
+            if let Ok(reference) = setup.solution() {
+                values.push((error, of(measure) / reference.of(measure) - 1.0));
+            }
         }
         values
     }
 
-    /// What is measured of the mean normal stress (Pa) of particles at `references` (m).
-    pub(super) fn of_stress(
-        &self,
-        references: &[[f64; 2]],
-        mean_stress: &[f64],
-        parameters: &Parameters,
-    ) -> Vec<(Metric, f64)> {
-        let error = stress_error(references, parameters, mean_stress);
-        let mut values =
-            vec![(m::MEAN_STRESS_RMS_ERROR, error), (m::MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
-        let probed = self.stress.iter();
-        values.extend(probed.map(|(metric, probe)| (*metric, probe.value(mean_stress))));
+    /// Metrics of the mean normal stress (Pa).
+    pub(super) fn of_stress(&self, mean_stress: &[f64], setup: &Setup<Cook>) -> Vec<(Metric, f64)> {
+        let error = setup.stress_error(&self.references, mean_stress);
+        let mut values = vec![(MEAN_STRESS_RMS_ERROR, error), (MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
+        values.extend(self.stress.iter().map(|(metric, probe)| (*metric, probe.value(mean_stress))));
         values
     }
-}
-
-/// Rms over the particles at `references` (m) of the mean stress (Pa) less the reference, where that is known.
-fn stress_error(references: &[[f64; 2]], parameters: &Parameters, mean_stress: &[f64]) -> f64 {
-    if !solution(parameters).is_ok_and(|s| s.poisson_ratio == 0.499) {
-        return f64::NAN;
-    }
-    let (field, scale) = (Reference::stored(), stress_scale(parameters));
-    let counted = references.iter().zip(mean_stress);
-    let off = counted
-        .filter(|(x, _)| away_from_singularities(x))
-        .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
-    rms(off)
 }

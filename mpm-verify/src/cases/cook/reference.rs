@@ -1,21 +1,51 @@
-//! The reference: an independent finite-element solution, valid for stated parameters.
+//! The membrane's geometry, and the reference: an independent finite-element solution, valid for stated parameters.
 
-use super::geometry::away_from_singularities;
-use super::parameters::{LOAD, POISSON_RATIO, YOUNG_MODULUS};
-use crate::parameter::Parameters;
+use super::*;
 use crate::statistics::rms;
-use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
 const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");
-
 const LARGE_LOADS: &str = include_str!("../../../references/cook_loads.json");
+
+/// Corners: (0, 0), (48, 44), (48, 60), (0, 44) m.
+pub(super) const LENGTH: f64 = 48.0;
+pub(super) const LEFT_HEIGHT: f64 = 44.0;
+pub(super) const RIGHT_HEIGHT: f64 = 16.0;
+/// The upper right corner and the middle of the right side (m).
+pub(super) const TIP: [f64; 2] = [LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT];
+pub(super) const MID_EDGE: [f64; 2] = [LENGTH, LEFT_HEIGHT + 0.5 * RIGHT_HEIGHT];
+/// Excluded from the stress error: x below this (m), and this far around the clamped corners.
+const SINGULAR: f64 = 3.0;
 
 /// Young's modulus (Pa) of the stored solutions; stresses scale with it.
 const MODULUS: f64 = 70.0;
+/// Poisson's ratio of the stored field and of the solutions with the load on another line.
+const RATIO: f64 = 0.499;
 /// Spacing of the lattice of the reference field (m); its first point is at half of it.
 const LATTICE: f64 = 0.5;
+
+/// A displacement u_y that the reference knows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Measure {
+    MidEdge,
+    EdgeMean,
+    Tip,
+}
+
+impl Measure {
+    pub(super) const ALL: [Self; 3] = [Self::MidEdge, Self::EdgeMean, Self::Tip];
+
+    /// Its metric, and that of its relative error.
+    pub(super) const fn metrics(self) -> [Metric; 2] {
+        match self {
+            Self::MidEdge => [MID_EDGE_UY, FEM_MID_EDGE_ERROR],
+            Self::EdgeMean => [EDGE_MEAN_UY, FEM_EDGE_MEAN_ERROR],
+            Self::Tip => [TIP_UY, FEM_TIP_ERROR],
+        }
+    }
+}
 
 #[derive(Debug, Deserialize)]
 struct Document {
@@ -25,46 +55,93 @@ struct Document {
     load_inset: Vec<LoadShift>,
 }
 
-/// What the displacements (m) change by when the load acts on x = 48 m − h/4 instead of the side.
+/// Displacements u_y (m), or by how much they change.
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct LoadShift {
+pub(super) struct Deflections {
+    #[serde(alias = "mid_edge_uy_change")]
+    mid_edge_uy: f64,
+    #[serde(alias = "edge_mean_uy_change")]
+    edge_mean_uy: f64,
+    #[serde(alias = "tip_uy_change")]
+    tip_uy: f64,
+}
+
+impl Deflections {
+    pub(super) fn of(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::MidEdge => self.mid_edge_uy,
+            Measure::EdgeMean => self.edge_mean_uy,
+            Measure::Tip => self.tip_uy,
+        }
+    }
+}
+
+/// The change when the load acts on x = 48 m − h/4 instead of the side.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct LoadShift {
     h: f64,
-    pub(super) tip_uy_change: f64,
-    pub(super) mid_edge_uy_change: f64,
-    pub(super) edge_mean_uy_change: f64,
+    #[serde(flatten)]
+    change: Deflections,
 }
 
 /// A displacement (m).
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct Displacement {
-    pub(super) uy: f64,
+struct Displacement {
+    uy: f64,
 }
 
-/// Mean normal stress at a material point.
+/// Mean normal stress (Pa) at a material point (m).
 #[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct StressPoint {
+struct StressPoint {
     x: f64,
     y: f64,
-    pub(super) value: f64,
+    value: f64,
 }
 
 /// The solution at one Poisson's ratio.
 #[derive(Debug, Clone, Deserialize)]
 pub(super) struct Solution {
     pub(super) poisson_ratio: f64,
-    pub(super) tip: Displacement,
-    pub(super) mid_edge: Displacement,
-    pub(super) edge_mean_uy: f64,
+    tip: Displacement,
+    mid_edge: Displacement,
+    edge_mean_uy: f64,
+    /// Uncertainties (m, Pa).
     pub(super) uncertainty_displacement: f64,
-    mean_stress: Vec<StressPoint>,
     pub(super) uncertainty_mean_stress: f64,
+    mean_stress: Vec<StressPoint>,
 }
 
 impl Solution {
-    /// The mean normal stress at a material point (m), where it is known.
-    pub(super) fn mean_stress_at(&self, point: [f64; 2]) -> Option<&StressPoint> {
-        self.mean_stress.iter().find(|s| [s.x, s.y] == point)
+    /// A displacement (m).
+    pub(super) fn of(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::MidEdge => self.mid_edge.uy,
+            Measure::EdgeMean => self.edge_mean_uy,
+            Measure::Tip => self.tip.uy,
+        }
     }
+
+    /// Whether the field of mean stress and the shifts by the place of the load are those of this solution.
+    pub(super) fn has_field(&self) -> bool {
+        self.poisson_ratio == RATIO
+    }
+
+    /// The mean normal stress (Pa) at a material point (m), where it is known.
+    pub(super) fn mean_stress_at(&self, point: [f64; 2]) -> Option<f64> {
+        self.mean_stress.iter().find(|s| [s.x, s.y] == point).map(|s| s.value)
+    }
+}
+
+/// Deflections under a large load.
+#[derive(Debug, Clone, Copy, Deserialize)]
+pub(super) struct LargeLoad {
+    load_over_young_modulus: f64,
+    /// Distance (m) of the load from the right side.
+    load_inset: f64,
+    #[serde(flatten)]
+    pub(super) deflections: Deflections,
+    /// Uncertainty (m).
+    pub(super) uncertainty: f64,
 }
 
 fn document() -> Result<&'static Document, String> {
@@ -73,56 +150,60 @@ fn document() -> Result<&'static Document, String> {
     DOCUMENT.as_ref().ok_or_else(unreadable)
 }
 
-/// The change due to the load's place at cell size `h` (m), if it is stored.
-pub(super) fn load_shift(h: f64) -> Option<&'static LoadShift> {
-    document().ok()?.load_inset.iter().find(|s| s.h == h)
-}
-
-/// The solution for `parameters`, if the reference covers them: displacements depend on ν and on
-/// load over E alone, so both must be those of a stored solution.
-pub(super) fn solution(parameters: &Parameters) -> Result<&'static Solution, String> {
-    let document = document()?;
-    let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
-    let stored = document.load_over_young_modulus;
-    if (ratio - stored).abs() > 1e-9 * stored {
-        return Err(format!("the reference is for load/E = 1/70, not {ratio}"));
+impl Setup<Cook> {
+    /// The solution, if the reference covers the setup: displacements depend on ν and on load over E alone, so both must be
+    /// those of a stored solution.
+    pub(super) fn solution(&self) -> Result<&'static Solution, String> {
+        let document = document()?;
+        let ratio = self.load / self.young_modulus;
+        let stored = document.load_over_young_modulus;
+        if (ratio - stored).abs() > 1e-9 * stored {
+            return Err(format!("the reference is for load/E = 1/70, not {ratio}"));
+        }
+        let nu = self.poisson_ratio;
+        document.solutions.iter().find(|s| s.poisson_ratio == nu).ok_or_else(|| format!("no reference at ν = {nu}"))
     }
-    let nu = parameters.number(POISSON_RATIO);
-    document.solutions.iter().find(|s| s.poisson_ratio == nu).ok_or_else(|| format!("no reference at ν = {nu}"))
-}
 
-/// Deflections of the right side (m) under a large load.
-#[derive(Debug, Clone, Copy, Deserialize)]
-pub(super) struct LargeLoad {
-    load_over_young_modulus: f64,
-    /// How far (m) from the right side it acts.
-    load_inset: f64,
-    pub(super) mid_edge_uy: f64,
-    pub(super) edge_mean_uy: f64,
-    pub(super) uncertainty: f64,
-}
-
-/// The solution under a load of 10 to 50 N that acts `inset` (m) from the side, if it is stored.
-pub(super) fn large_load(parameters: &Parameters, inset: f64) -> Option<&'static LargeLoad> {
-    #[derive(Debug, Deserialize)]
-    struct Document {
-        poisson_ratio: f64,
-        solutions: Vec<LargeLoad>,
+    /// The change due to the load's place, if it is stored for these cells.
+    pub(super) fn load_shift(&self) -> Option<&'static Deflections> {
+        document().ok()?.load_inset.iter().find(|s| s.h == self.h).map(|s| &s.change)
     }
-    static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(LARGE_LOADS).ok());
-    let document = DOCUMENT.as_ref()?;
-    let ratio = parameters.number(LOAD) / parameters.number(YOUNG_MODULUS);
-    let same = |s: &&LargeLoad| {
-        let load = s.load_over_young_modulus;
-        (ratio - load).abs() < 1e-9 * load && (s.load_inset - inset).abs() < 1e-9
-    };
-    let known = parameters.number(POISSON_RATIO) == document.poisson_ratio;
-    document.solutions.iter().find(same).filter(|_| known)
-}
 
-/// What the stored stresses are to be multiplied with for `parameters`.
-pub(super) fn stress_scale(parameters: &Parameters) -> f64 {
-    parameters.number(YOUNG_MODULUS) / MODULUS
+    /// The solution under a load of 10 to 50 N that acts h/4 from the side, if it is stored.
+    pub(super) fn large_load(&self) -> Option<&'static LargeLoad> {
+        #[derive(Debug, Deserialize)]
+        struct Document {
+            poisson_ratio: f64,
+            solutions: Vec<LargeLoad>,
+        }
+        static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(LARGE_LOADS).ok());
+        let document = DOCUMENT.as_ref()?;
+        let (ratio, inset) = (self.load / self.young_modulus, 0.25 * self.h);
+        let same = |s: &&LargeLoad| {
+            let load = s.load_over_young_modulus;
+            (ratio - load).abs() < 1e-9 * load && (s.load_inset - inset).abs() < 1e-9
+        };
+        let known = self.poisson_ratio == document.poisson_ratio;
+        document.solutions.iter().find(same).filter(|_| known)
+    }
+
+    /// Factor of the stored stresses.
+    pub(super) fn stress_scale(&self) -> f64 {
+        self.young_modulus / MODULUS
+    }
+
+    /// Rms over the particles at `references` (m) of the mean stress (Pa) less the reference; NaN where that is not known.
+    pub(super) fn stress_error(&self, references: &[[f64; 2]], mean_stress: &[f64]) -> f64 {
+        if !self.solution().is_ok_and(Solution::has_field) {
+            return f64::NAN;
+        }
+        let (field, scale) = (StressField::stored(), self.stress_scale());
+        let counted = references.iter().zip(mean_stress);
+        let off = counted
+            .filter(|(x, _)| away_from_singularities(x))
+            .filter_map(|(x, s)| Some(s - scale * field.interpolate(*x)?));
+        rms(off)
+    }
 }
 
 /// The references in words.
@@ -132,46 +213,33 @@ pub(super) fn describe() -> Vec<String> {
     };
     let mut lines = vec![document.method.clone()];
     lines.extend(document.solutions.iter().map(|s| {
+        let [mid_edge, edge_mean, tip] = Measure::ALL.map(|measure| s.of(measure));
         format!(
-            "ν = {}: u_y tip {:.6}, mid-edge {:.6}, edge mean {:.6} m (± {:.0e} m); mean stress ± {:.0e} Pa",
-            s.poisson_ratio,
-            s.tip.uy,
-            s.mid_edge.uy,
-            s.edge_mean_uy,
-            s.uncertainty_displacement,
-            s.uncertainty_mean_stress
+            "ν = {}: u_y tip {tip:.6}, mid-edge {mid_edge:.6}, edge mean {edge_mean:.6} m (± {:.0e} m); mean stress ± {:.0e} Pa",
+            s.poisson_ratio, s.uncertainty_displacement, s.uncertainty_mean_stress
         )
     }));
     lines
 }
 
-/// The reference field of mean normal stress at ν = 0.499, on a lattice of material points.
-pub(super) struct Field {
-    columns: usize,
-    rows: usize,
-    values: Vec<Option<f64>>,
+/// Whether a material point counts in the stress error.
+fn away_from_singularities(x: &[f64; 2]) -> bool {
+    x[0] > SINGULAR && x[0].hypot(x[1]) > SINGULAR && x[0].hypot(x[1] - LEFT_HEIGHT) > SINGULAR
 }
 
-impl Field {
+/// The reference field of mean normal stress (Pa) at ν = 0.499, on a lattice of material points.
+pub(super) struct StressField(BTreeMap<(usize, usize), f64>);
+
+impl StressField {
     /// The stored field.
     pub(super) fn stored() -> &'static Self {
-        static STORED: LazyLock<Field> = LazyLock::new(|| {
-            let (columns, rows) = (96, 120);
-            let mut values = vec![None; columns * rows];
+        static STORED: LazyLock<StressField> = LazyLock::new(|| {
             let mut reader = csv::Reader::from_reader(FIELD.as_bytes());
-            for (x, y, stress) in reader.deserialize::<(f64, f64, f64)>().flatten() {
-                let index = (x / LATTICE) as usize * rows + (y / LATTICE) as usize;
-                if let Some(value) = values.get_mut(index) {
-                    *value = Some(stress);
-                }
-            }
-            Field { columns, rows, values }
+            let place = |x: f64| (x / LATTICE) as usize;
+            let points = reader.deserialize::<(f64, f64, f64)>().flatten();
+            StressField(points.map(|(x, y, stress)| ((place(x), place(y)), stress)).collect())
         });
         &STORED
-    }
-
-    fn at(&self, i: usize, j: usize) -> Option<f64> {
-        (i < self.columns && j < self.rows).then(|| self.values[i * self.rows + j])?
     }
 
     /// The field at a material point (m), bilinear between the four lattice points around it; `None`
@@ -187,7 +255,7 @@ impl Field {
         for (di, ws) in [(0, 1.0 - s), (1, s)] {
             for (dj, wt) in [(0, 1.0 - t), (1, t)] {
                 if ws * wt > 1e-9 {
-                    sum += ws * wt * self.at(i + di, j + dj)?;
+                    sum += ws * wt * self.0.get(&(i + di, j + dj))?;
                 }
             }
         }
@@ -197,11 +265,10 @@ impl Field {
     /// Root mean squares of |gradient| (Pa/m) and of the field (Pa) over the lattice points that
     /// count in the stress error.
     pub(super) fn rms_of_gradient_and_value(&self) -> (f64, f64) {
-        let counted = (0..self.columns * self.rows).filter_map(|k| {
-            let place = |i: usize| (i as f64 + 0.5) * LATTICE;
-            let x = [place(k / self.rows), place(k % self.rows)];
-            let value = self.values[k].filter(|_| away_from_singularities(&x))?;
-            Some((self.gradient(x, LATTICE)?, value))
+        let counted = self.0.iter().filter_map(|((i, j), value)| {
+            let x = [i, j].map(|k| (*k as f64 + 0.5) * LATTICE);
+            let gradient = away_from_singularities(&x).then(|| self.gradient(x, LATTICE))??;
+            Some((gradient, *value))
         });
         let (gradients, values): (Vec<f64>, Vec<f64>) = counted.unzip();
         (rms(gradients), rms(values))
@@ -227,7 +294,7 @@ mod tests {
     fn the_stored_solutions_agree_with_the_stored_field() {
         let solution = document().unwrap().solutions.iter().find(|s| s.poisson_ratio == 0.499).unwrap();
         for point in &solution.mean_stress {
-            let field = Field::stored().interpolate([point.x, point.y]).unwrap();
+            let field = StressField::stored().interpolate([point.x, point.y]).unwrap();
             // Bilinear interpolation over 0.5 m: half a lattice step squared over eight, times the
             // curvature of the field, stays below 1e-4 Pa.
             assert!((field - point.value).abs() < 1e-4, "{point:?} {field}");
@@ -236,8 +303,8 @@ mod tests {
 
     #[test]
     fn the_field_covers_the_membrane_and_nothing_else() {
-        let field = Field::stored();
-        assert_eq!(field.values.iter().flatten().count(), 5776);
+        let field = StressField::stored();
+        assert_eq!(field.0.len(), 5776);
         assert!(field.interpolate([24.0, 36.0]).is_some());
         assert!(field.interpolate([24.0, 10.0]).is_none());
         assert!(field.interpolate([500.0, 10.0]).is_none());
