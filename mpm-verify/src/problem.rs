@@ -26,18 +26,6 @@ impl<const D: usize> Phase<D> {
         Self { run, before: WorkDone::default(), pulse: Arc::default() }
     }
 
-    pub(crate) fn before(&self) -> WorkDone {
-        self.before
-    }
-
-    pub(crate) fn pulse(&self) -> Arc<Pulse> {
-        Arc::clone(&self.pulse)
-    }
-
-    pub(crate) fn reset(&mut self, run: Box<dyn Simulation<D>>, before: WorkDone) {
-        (self.run, self.before) = (run, before);
-    }
-
     /// Advances by `count` steps.
     ///
     /// # Errors
