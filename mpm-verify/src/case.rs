@@ -180,7 +180,21 @@ impl Case {
     /// Verdicts on a run that has come to its end, those on its wanted quantities first.
     #[must_use]
     pub fn judge(&self, record: &Record) -> Vec<Verdict> {
-        settled(&self.wanted, self.verdicts(record))
+        let verdicts = self.verdicts(record).into_iter();
+        let verdicts = match self.plans(record) {
+            true => verdicts.collect(),
+            false => verdicts.map(Verdict::unplanned).collect(),
+        };
+        settled(&self.wanted, verdicts)
+    }
+
+    /// Whether a run is among those of its plan, for which its known limits were established.
+    pub(crate) fn plans(&self, record: &Record) -> bool {
+        let has = |f: &Family| {
+            let level = f.levels.iter().any(|l| l.name == record.level);
+            level && f.set == record.set && f.schemes.contains(&record.scheme())
+        };
+        self.plan.iter().any(has)
     }
 
     /// Verdicts of all checks on a run that has come to its end.

@@ -75,6 +75,22 @@ impl Verdict {
         self.judges() || self.failed() || (self.is_wanted() && self.outcome == Outcome::NotJudged)
     }
 
+    /// The verdict on a run that no tier plans. Known limits are established for planned runs, and some references are
+    /// known for their parameters only: such a failure becomes *not judged*.
+    #[must_use]
+    pub(crate) fn unplanned(self) -> Self {
+        let is_nan = |number: Option<f64>| number.is_some_and(f64::is_nan);
+        let why = match self.kind {
+            Kind::KnownLimit => "the limit does not show in this run, which no tier plans",
+            _ if is_nan(self.reference) || is_nan(self.tolerance) => "no reference for these parameters",
+            _ => return self,
+        };
+        match self.failed() {
+            true => Self { outcome: Outcome::NotJudged, source: format!("{why}: {}", self.source), ..self },
+            false => self,
+        }
+    }
+
     /// Whether what the check states is so, a known limit included; nothing where it was not judged.
     #[must_use]
     pub fn holds(&self) -> Option<bool> {

@@ -53,7 +53,7 @@ parameters! { pub(super) const:
         "midpoint: share β of the lumped mass, the rest is consistent";
     ALPHA = "alpha", "-", "0.25", number(0.0, 2.0, false),
         "newmark: α, at least (δ + ½)²/4";
-    DELTA = "delta", "-", "0.5", number(0.0, 2.0, false),
+    DELTA = "delta", "-", "0.5", number(0.5, 2.0, false),
         "newmark: δ, at least ½";
     TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-2, false),
         "implicit: residual of a converged step over the loads";

@@ -4,7 +4,7 @@
 
 use super::family::{REMEDIES, implicit, pairs};
 use super::manufactured::*;
-use super::parameters::{DENSITY, DYNAMIC, FLIP};
+use super::parameters::{DENSITY, DYNAMIC, FLIP, WALL, WALL_LINE};
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
@@ -110,7 +110,8 @@ fn is_short(r: &Setup<()>) -> bool {
 /// Whether particles lose their order until the run breaks down.
 fn is_disordered(r: &Setup<()>) -> bool {
     let disorder = !is_short(r) || r.basis() == Gimp && r.level == "n16";
-    disorder && r.remedy() != RemedyName::None && !is_held(r)
+    let at_walls = matches!(r.remedy(), FbarTotal | FbarRate) && r.values.is(WALL, WALL_LINE);
+    (disorder || at_walls) && r.remedy() != RemedyName::None && !is_held(r)
 }
 
 /// Largest error of the frequency of a scheme that does not lock.

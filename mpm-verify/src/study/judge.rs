@@ -26,10 +26,11 @@ pub fn judged_run(
 
 /// All verdicts on one run.
 pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
-    let mut verdicts = vec![match (case.breaks_down)(record) {
+    let ending = match (case.breaks_down)(record) {
         None => completes(record),
         Some(why) => breaks_down(record, why),
-    }];
+    };
+    let mut verdicts = vec![if case.plans(record) { ending } else { ending.unplanned() }];
     if record.status == Status::Ok {
         verdicts.extend(case.judge(record));
     }
@@ -97,6 +98,18 @@ mod tests {
     use super::*;
     use crate::cases;
     use crate::record::fixture::record;
+
+    #[test]
+    fn a_known_limit_has_to_show_in_planned_runs_only() {
+        let case = cases::find("cook").unwrap();
+        let planned = case.runs(crate::case::Tier::Pr).remove(0);
+        let mut run = record(planned.level.name, Vec::new());
+        run.set = vec!["load=0.3".to_owned()];
+        assert!(!case.plans(&run));
+        let vanished = breaks_down(&run, "as known");
+        assert!(vanished.failed());
+        assert_eq!(vanished.unplanned().outcome, Outcome::NotJudged);
+    }
 
     #[test]
     fn a_breakdown_ends_well_only_where_it_is_known() {

@@ -130,6 +130,13 @@ impl Problem<1> for Setup<Terzaghi> {
     fn new(setup: Self) -> Result<Self, Error> {
         let why = "below which rounding hides the answer and above which the strain is not small";
         let allowed = least_strain(f64::from(setup.steps))..=SMALL;
+        let first = setup.first_and_growth().0;
+        if setup.steps > 1 && first > setup.time_end {
+            return Err(Error::Input(format!(
+                "parameter first_step: {} of this level is a step of {first} H²/c_v; allowed: at most time_end = {}",
+                setup.first_step, setup.time_end
+            )));
+        }
         require_quotient("load / M of young_modulus", setup.strain(), allowed, why)?;
         Ok(setup)
     }
