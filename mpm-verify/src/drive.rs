@@ -17,7 +17,7 @@ pub trait Watch<const D: usize>: Send {
 
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
-    /// The simulation, at its start, that a run is in when this has been seen.
+    /// Initial simulation of the phase recorded in `seen`.
     ///
     /// # Errors
     /// The parameters don't make a scene.
