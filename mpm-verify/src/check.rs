@@ -105,7 +105,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// |value − reference| ≤ tolerance. It can't be told to hold by a tolerance that lets nothing at all pass for the
+    /// |value − reference| ≤ tolerance. It can't be decided by a tolerance that lets nothing at all pass for the
     /// reference: by one that isn't below |reference|, or below [a stated scale](Self::of_scale).
     pub(crate) fn within(
         metric: impl Into<String>,
@@ -161,7 +161,7 @@ impl Finding {
         Self { scale: Some(scale), ..self }
     }
 
-    /// Why it can't be told that the value is right: the tolerance is as large as what is judged.
+    /// Reason why the value can't be judged right: the tolerance is as large as the value.
     fn too_wide(&self) -> Option<String> {
         let (reference, tolerance) = self.reference.zip(self.tolerance)?;
         let scale = self.scale.unwrap_or(reference.abs());

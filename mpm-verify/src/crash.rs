@@ -91,7 +91,7 @@ fn require_same(a: &Path, b: &Path, about: &str) {
     assert!(different.is_empty(), "{about}: {different:?}");
 }
 
-/// A run that is killed, or whose disk is full, at any step goes on to the same bits.
+/// A run that is killed, or whose disk is full, at any step resumes bit for bit.
 #[test]
 fn a_run_survives_a_failure_at_every_step() {
     let straight = tempfile::tempdir().unwrap();

@@ -75,7 +75,7 @@ pub enum Error {
     /// A picture could not be drawn.
     #[error(transparent)]
     Picture(Box<dyn std::error::Error + Send + Sync>),
-    /// A checkpoint is not one that this run can go on from.
+    /// The run cannot resume from a checkpoint.
     #[error("{}: {refusal}", path.display())]
     Checkpoint {
         /// The file.

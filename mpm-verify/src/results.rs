@@ -139,7 +139,7 @@ impl Column {
         Self { title: title.into(), metric: None, cell: Cell::Row(Box::new(text)) }
     }
 
-    /// The same of one run among those of the row.
+    /// Restricts the column to the first matching run of the row.
     pub(crate) fn of(self, run: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
         let cell = match self.cell {
             Cell::Run(_, text) => Cell::Run(Box::new(run), text),

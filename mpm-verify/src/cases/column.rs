@@ -96,7 +96,7 @@ fn grows(r: &Run<()>) -> bool {
     r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate)
 }
 
-/// Whether a run is long enough that a drift can be told from the ringing of the start.
+/// Whether a run is long enough to distinguish a drift from the ringing of the start.
 fn is_long(r: &Run<()>) -> bool {
     r.record.work.steps >= ENOUGH
 }

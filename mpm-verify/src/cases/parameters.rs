@@ -1,4 +1,4 @@
-//! Parameters that several problems have: each is asked for by itself, so that a slip does not compile.
+//! Parameters shared by several problems: each is read by its constant, so that a typo does not compile.
 
 use crate::error::Error;
 use crate::parameter::{Domain, Parameter, Parameters, choices, number, parameters};

@@ -5,7 +5,7 @@ use crate::scheme::{BasisName, RemedyName, Scheme, SpaceName, TransferName};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-/// More curves than this can't be told apart on one pair of axes.
+/// Maximum number of distinguishable curves on one pair of axes.
 const MOST_CURVES: usize = 8;
 /// Panels of a picture, at most.
 const MOST_PANELS: usize = 6;
@@ -73,7 +73,7 @@ impl Panel {
 pub(crate) struct Panels(Vec<Panel>);
 
 impl Panels {
-    /// All schemes in one panel while they can be told apart, else a panel for every basis.
+    /// All schemes in one panel while they are distinguishable, else a panel for every basis.
     pub(crate) fn new(schemes: &BTreeSet<Scheme>) -> Self {
         let bases: BTreeSet<BasisName> = schemes.iter().map(|s| s.basis()).collect();
         // Schemes with their basis replaced by one, as all bases have the same curves.

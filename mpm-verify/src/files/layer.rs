@@ -57,7 +57,7 @@ impl Output {
         Ok(Self { file, path })
     }
 
-    /// Goes on with an open file after its first bytes, cutting off the others.
+    /// Resumes an open file after its first bytes, cutting off the others.
     pub(crate) fn after(path: &Path, mut file: File, bytes: u64) -> io::Result<Self> {
         pass(Step::Write, path)?;
         file.set_len(bytes)?;

@@ -14,7 +14,7 @@ use crate::verdict::Verdict;
 use image::RgbImage;
 use std::path::{Path, PathBuf};
 
-/// Pixels along the window and steps of the colour scale that can be told apart: half of one is the tolerance.
+/// Number of distinguishable pixels along the window and steps of the colour scale: half of one is the tolerance.
 const PIXELS: f64 = 240.0;
 const COLOURS: f64 = 16.0;
 /// Columns of the file.

@@ -138,7 +138,7 @@ fn ratio(r: &Record, other: &Record) -> f64 {
     r.time.cpu_s / other.time.cpu_s
 }
 
-/// The table of some runs, those that it tells of, and what it says in a sentence.
+/// The table of some runs, the runs it contains, and its conclusion in a sentence.
 pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, String) {
     let head = [
         "problem",

@@ -1,4 +1,4 @@
-//! Checkpoints: a run on disk, from which it goes on as if it had never stopped.
+//! Checkpoints: a run on disk, from which it resumes bit for bit.
 //!
 //! | bytes | content |
 //! |---|---|
@@ -25,31 +25,31 @@ use thiserror::Error;
 
 /// Name of its file.
 pub const FILE: &str = "checkpoint.bin";
-/// Seconds between checkpoints, if nothing else is asked for.
+/// Default interval between checkpoints (s).
 pub const EVERY_S: u64 = 60;
 /// How the file begins.
 const MAGIC: [u8; 8] = *b"MPMCHECK";
 /// Version of the format.
 const FORMAT: u32 = 1;
 
-/// When a run is saved, and whether it goes on from what was saved.
+/// Interval of checkpoints, and whether the run resumes from one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Saving {
     /// Time by the clock from one checkpoint to the next, which comes with the next row of the series.
     pub every: Duration,
-    /// Whether to go on from the checkpoint in the run's folder, if there is one.
+    /// Whether to resume from the checkpoint in the run's folder, if there is one.
     pub resume: bool,
 }
 
 impl Saving {
-    /// At the default interval, going on from what there is.
+    /// The default interval, resuming from an existing checkpoint.
     #[must_use]
     pub fn resuming() -> Self {
         Self { every: Duration::from_secs(EVERY_S), resume: true }
     }
 }
 
-/// Why a run can't go on from what is in its folder.
+/// Reason why a run can't resume from the files in its folder.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Refusal {
     /// The file begins with something else.

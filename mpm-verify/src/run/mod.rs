@@ -49,7 +49,7 @@ pub struct Progress {
 /// has written and its record says why. `progress` hears of it after every row, and every second.
 ///
 /// # Errors
-/// The scene can't be built or has no particle, a file can't be written, or the checkpoint to go on from is refused
+/// The scene can't be built or has no particle, a file can't be written, or the checkpoint to resume from is refused
 /// ([`Error::Checkpoint`], and nothing in the folder has changed). A numerical breakdown is not an error here.
 pub fn execute(
     case: &Case,
@@ -176,7 +176,7 @@ struct Journal {
 }
 
 impl Journal {
-    /// Goes on from the checkpoint, if there is one and it is asked for, or begins; and the time taken before.
+    /// Resumes from the checkpoint, if there is one and it is requested, or begins; and the time taken before.
     fn open(folder: &Path, saving: Saving, identity: Identity, job: &mut dyn Job) -> Result<(Self, Timing), Error> {
         make_folder(folder)?;
         require_inside(folder, Path::new(SNAPSHOTS))?;

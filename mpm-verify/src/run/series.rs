@@ -49,7 +49,7 @@ impl Series {
         Ok(Self::on(path, file, 0, Hasher::new()))
     }
 
-    /// Goes on with the series in `folder` from `mark`, cutting off what comes after it; `None` if it does
+    /// Resumes the series in `folder` from `mark`, cutting off what comes after it; `None` if it does
     /// not begin with what the mark knows.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::parameter::Parameters;
 use crate::spec::RunSpec;
 use std::path::Path;
 
-/// Bytes of a scene that is built to be measured and not worked out from a coarser one.
+/// Bytes of the largest scene that is built for its measurement instead of extrapolated from a coarser one.
 const BUILT: f64 = 32.0 * MEBIBYTE;
 /// Bytes from which a coarser scene is large enough that its edges count for little.
 const LARGE: f64 = 4.0 * MEBIBYTE;

@@ -1,4 +1,4 @@
-//! Results that were never computed: a reference told as a code's own, and what is wrong with it.
+//! Results that were never computed: a reference in the form of a code's own result, and its faults.
 
 use super::*;
 use crate::cases::find_scored;

@@ -6,6 +6,7 @@ use crate::error::{Error, ExitCode};
 use crate::record::{BREAKS_DOWN, Record, Status};
 use crate::run::checkpoint::Saving;
 use crate::run::{Progress, execute};
+use crate::scheme::Scheme;
 use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::Path;
@@ -26,7 +27,7 @@ pub fn judged_run(
 
 /// All verdicts on one run.
 pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
-    let ending = match (case.breaks_down)(record) {
+    let ending = match (case.breaks_down)(record).or_else(|| long_step(case, record)) {
         None => completes(record),
         Some(why) => breaks_down(record, why),
     };
@@ -35,6 +36,19 @@ pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
         verdicts.extend(case.judge(record));
     }
     verdicts
+}
+
+/// Largest CFL number with which explicit steps are stable however GIMP's particles and those of splines lie, rounded down:
+/// `docs/critical-step.md`.
+const STABLE_CFL: f64 = 0.5;
+
+/// Reason why an explicit run that broke down had to be expected to, if its steps are longer than stability allows.
+fn long_step(case: &Case, record: &Record) -> Option<&'static str> {
+    let is_explicit = matches!(record.scheme(), Scheme::Explicit(_));
+    let cfl = case.parameters.iter().find(|p| p.name == "cfl");
+    let is_long = cfl.is_some_and(|cfl| record.parameters.number(*cfl) > STABLE_CFL);
+    let broke = record.status == Status::Failed;
+    (broke && is_explicit && is_long).then_some("a CFL number above 0.5: such steps are stable for some layouts only")
 }
 
 /// Whether the run came to its end: a check of every case.

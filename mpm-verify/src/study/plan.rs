@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 const SCHEMA: u32 = 1;
 /// Name of the plan's file.
 const FILE: &str = "plan.json";
-/// More shards than this are surely a slip.
+/// Maximum number of shards; more is almost certainly a typo.
 const MAX_SHARDS: usize = 10_000;
 
 /// A share of a plan: the `index`-th of `count`, counted from one.

@@ -19,7 +19,7 @@ use std::sync::{Mutex, PoisonError};
 pub trait Listener: Sync {
     /// A share of a run is done (0 to 1).
     fn progress(&self, run: usize, share: f64);
-    /// A run can't go on from its checkpoint and begins again.
+    /// A run can't resume from its checkpoint and begins again.
     fn begins_again(&self, run: usize, why: &Error);
     /// A run has ended.
     fn ended(&self, run: usize, record: &Record);
@@ -100,7 +100,7 @@ impl Task {
         Ok(found.filter(|r| r.set == self.spec.set && r.version == Version::current()))
     }
 
-    /// Makes the run, or keeps it if it is there already and that is asked for.
+    /// Makes the run, or keeps an existing one if that is requested.
     fn make(&self, k: usize, saving: Saving, listener: &dyn Listener) -> Result<Record, Error> {
         let _held = hold(&self.folder)?;
         match self.made() {

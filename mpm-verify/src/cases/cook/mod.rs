@@ -78,7 +78,7 @@ metrics! { OWN:
     ENERGY_GAIN = "energy_gain", "-",
         "largest kinetic energy + stress work + losses − load work over the run, relative to the final load work";
     ENERGY_LOSS = "energy_loss", "-",
-        "largest excess of the load's work, likewise: what the transfer dissipates";
+        "largest excess of the load's work over that of the load: dissipation of the transfer";
     PERIOD = "period", "s", "nominal fundamental period";
     REACTION_ERROR = "reaction_error", "-",
         "quasi-static: distance of the clamp's reaction from the load over the load; 10⁻⁹ if it is less";
@@ -95,12 +95,12 @@ metrics! {
     MEAN_STRESSES at [f64; 2]:
     [24.0, 36.0] => "mean_stress_24_36", "Pa",
         "mean normal stress at the material point (24, 36) m, by a linear fit";
-    [16.0, 30.0] => "mean_stress_16_30", "Pa", "likewise at (16, 30) m";
-    [36.0, 48.0] => "mean_stress_36_48", "Pa", "likewise at (36, 48) m";
-    [24.0, 24.0] => "mean_stress_24_24", "Pa", "likewise at (24, 24) m";
-    [8.0, 20.0] => "mean_stress_8_20", "Pa", "likewise at (8, 20) m";
-    [8.0, 40.0] => "mean_stress_8_40", "Pa", "likewise at (8, 40) m";
-    [44.0, 52.0] => "mean_stress_44_52", "Pa", "likewise at (44, 52) m";
+    [16.0, 30.0] => "mean_stress_16_30", "Pa", "mean normal stress at (16, 30) m, by the same fit";
+    [36.0, 48.0] => "mean_stress_36_48", "Pa", "mean normal stress at (36, 48) m, by the same fit";
+    [24.0, 24.0] => "mean_stress_24_24", "Pa", "mean normal stress at (24, 24) m, by the same fit";
+    [8.0, 20.0] => "mean_stress_8_20", "Pa", "mean normal stress at (8, 20) m, by the same fit";
+    [8.0, 40.0] => "mean_stress_8_40", "Pa", "mean normal stress at (8, 40) m, by the same fit";
+    [44.0, 52.0] => "mean_stress_44_52", "Pa", "mean normal stress at (44, 52) m, by the same fit";
 }
 
 pub(super) fn case() -> Case {
@@ -202,7 +202,7 @@ fn cost(spec: &RunSpec) -> f64 {
 }
 
 /// One record for each scheme and level at the case's own parameters. A state of rest hardly depends on the time step:
-/// where there is no such record, one with another time step stands in, but for schemes that never come to rest.
+/// where there is no such record, one with another time step stands in, except for schemes that never come to rest.
 fn own_runs(records: &[Record]) -> Vec<&Record> {
     let same = |a: &Record, b: &Record| a.scheme() == b.scheme() && a.level == b.level;
     let has_default = |r: &Record| records.iter().any(|d| d.is_default() && same(d, r));
@@ -225,7 +225,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let of_static = |basis, remedy| Scheme::quasi_static(basis, remedy);
     let averaged = [Gimp, Bspline2].map(|basis| of_static(basis, FbarConsistent));
     let statics = [Gimp, Bspline2].map(|basis| [none, FbarConsistent].map(|r| of_static(basis, r)));
-    // Loads under which explicit bodies leave the grid, in so many steps, with functions of the rim held.
+    // Loads under which explicit bodies leave the grid, in as many steps, with functions of the rim held.
     let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16), (50, 20)];
     // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
     Plan::of(levels)

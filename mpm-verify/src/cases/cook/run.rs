@@ -128,10 +128,8 @@ impl Setup<Cook> {
         Ok(loads.into_iter().fold(scene, Scene::load))
     }
 
-    /// The conditions on parameters of an explicit run together.
+    /// Checks durations of an explicit run against each other.
     fn check_together(&self) -> Result<(), Error> {
-        let why = "m; below, rounding hides the answer";
-        require_quotient("load / young_modulus", self.load / self.young_modulus, LOAD_OVER_MODULUS, why)?;
         for (name, periods) in [("rest_window", self.rest_window), ("load_ramp", self.load_ramp)] {
             if periods >= self.max_periods {
                 let most = self.max_periods;
@@ -331,6 +329,8 @@ impl Problem<2> for Membrane {
     type Seen = Seen;
 
     fn new(setup: Setup<Cook>) -> Result<Self, Error> {
+        let why = "m; below, rounding hides the answer";
+        require_quotient("load / young_modulus", setup.load / setup.young_modulus, LOAD_OVER_MODULUS, why)?;
         let dt = if setup.is_explicit() {
             setup.forbid(&OF_QUASI_STATIC)?;
             setup.check_together()?;

@@ -85,7 +85,7 @@ metrics! { ALL:
     DEFLECTION = "deflection", "-",
         "change of the velocity at which they do, over its start: 2 of discs that bounce back, 0 of discs that miss each other";
     FREE_UNTIL = "free_until", "s",
-        "last time at which no node would see both discs if they flew freely, if one comes to";
+        "last time at which no node would see both discs if they flew freely, if they ever meet";
     FLIGHT_ERROR = "flight_error", "-",
         "until then, or to the end, the largest change of a particle's velocity, over its speed; 10⁻¹² if it is less";
     FLIGHT_STRAIN = "flight_strain", "-", "largest |J − 1| of a particle over the same time; 10⁻¹² if it is less";

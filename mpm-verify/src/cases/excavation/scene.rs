@@ -91,7 +91,7 @@ impl Setup<Excavation> {
         HenckyJ2::new(self.young_modulus, self.poisson_ratio, self.strength()?)
     }
 
-    /// Rows of a stage, if it comes to its end.
+    /// Rows of a stage that is run to its end.
     pub(super) fn rows(&self, stage: Stage) -> u64 {
         match stage {
             Stage::Gravity if self.gravity == Raising::Step => 1,

@@ -87,7 +87,7 @@ impl Wave {
         number(ANGULAR_FREQUENCY) / ((self.number)(&r.values) * speed)
     }
 
-    /// Why there is no bound on the error of any scheme, if there is none.
+    /// Reason why no scheme has a bound on its error, if there is one.
     fn unposed(&self, r: &Run<()>) -> Option<&'static str> {
         // At rest for all time, a body errs by its motion.
         if self.bound(r) >= 1.0 {
@@ -108,7 +108,7 @@ impl Wave {
         None
     }
 
-    /// Why a scheme is known not to keep the bound, if it is.
+    /// Reason why a scheme is known not to keep the bound, if there is one.
     fn shortcoming(r: &Run<()>, claim: &Claim) -> Option<&'static str> {
         if is_beyond_unseen(r) {
             return Some("what the average can't see is stiff enough to lock: docs/mms-static.md");
@@ -122,7 +122,7 @@ impl Wave {
         }
     }
 
-    /// Why no bound on the error of a run is claimed, if none is.
+    /// Reason why no bound on the error of a run is claimed, if there is one.
     fn unbounded(&self, r: &Run<()>, claim: &Claim) -> Option<&'static str> {
         self.unposed(r).or_else(|| Self::shortcoming(r, claim))
     }

@@ -359,7 +359,7 @@ pub(super) enum WallsForm {
     WallLine,
 }
 
-/// A part of the run. Its time begins at zero; the body goes on as the phase before has left it.
+/// A part of the run. Its time begins at zero; the body continues from the end of the phase before.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct PhaseForm {

@@ -36,14 +36,14 @@ parameters! {
 
 metrics! { ALL:
     TEAR_STRETCH = "tear_stretch", "-",
-        "first stretch at which the mean stress of the free part is less than half of the exact one, if it comes to that";
+        "first stretch at which the mean stress of the free part is less than half of the exact one, if reached";
     PARTED_STRETCH = "parted_stretch", "-",
-        "first stretch at which neighbours have no common node, if it comes to that";
+        "first stretch at which neighbours have no common node, if reached";
     PREDICTED_TEAR_STRETCH = "predicted_tear_stretch", "-",
         "the same of particles at their exact places: where gap and support of the functions tear the body at the latest";
     UNSTABLE_STRETCH = "unstable_stretch", "-",
         "first stretch at which some motion of the free nodes, in the exact state without a remedy, has a negative stiffness, less the share by which the noise that is foretold may stretch some place more; none of linear functions";
-    STOPPED_STRETCH = "stopped_stretch", "-", "stretch at which the program says that it can't go on, if it does";
+    STOPPED_STRETCH = "stopped_stretch", "-", "stretch at which the program stops with an error, if it does";
     PREDICTED_STOP_STRETCH = "predicted_stop_stretch", "-",
         "explicit: stretch at which the fastest particle and waves of the exact state pass a cell in a step";
     STRESS_NOISE = "stress_noise", "-",
