@@ -40,7 +40,7 @@ parameters! { pub(super) const:
     LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false),
         "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings behind a shock";
     WALL = "wall", "-", "open-knot", Domain::Choice(&["open-knot", WALL_LINE]), "how B-splines meet walls";
-    PPC_PER_DIRECTION = "ppc_per_direction", "-", "2", Domain::Integer { least: 1, most: 4 },
+    PPC_PER_DIRECTION = "ppc_per_direction", "-", "2", Domain::Integer { least: 2, most: 4 },
         "particles per cell and direction";
     LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
         "equal steps of the load";

@@ -25,7 +25,7 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
 }
 
 /// Whether a check is red on a run whose metric has another value: that of the check or, where the check is of a number that
-/// follows from the metric, as far from the metric's own as that of the check is from its own.
+/// follows from the metric, as far from the metric's own as that of the check is from its own. A known limit may be gone.
 fn turns_red(record: &Record, verdict: &Verdict, value: f64) -> bool {
     let (Ok(case), Some(own)) = (cases::find(&record.case), record.metrics[&verdict.metric].value) else {
         return false;
@@ -37,7 +37,9 @@ fn turns_red(record: &Record, verdict: &Verdict, value: f64) -> bool {
         if let Some(measured) = record.metrics.get_mut(&verdict.metric) {
             measured.value = Some(moved);
         }
-        case.judge(&record).iter().any(|v| same(v) && v.outcome == Failed)
+        let judged = case.judge(&record);
+        let is_gone = verdict.kind == Kind::KnownLimit && !judged.iter().any(|v| same(v) && v.outcome == WrongAsKnown);
+        is_gone || judged.iter().any(|v| same(v) && v.outcome == Failed)
     })
 }
 

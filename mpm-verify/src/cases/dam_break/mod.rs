@@ -52,7 +52,7 @@ parameters! {
             "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m";
         pic_rate: f64 = PIC_RATE, "share of PIC per unit of time, r: η = exp(−r Δt); 0 is FLIP";
         wall: WallTreatment = common::WALL, "how B-splines meet floor and walls";
-        ppc_per_direction: usize = whole("-", "5", 1, 8), "particles per cell and direction";
+        ppc_per_direction: usize = whole("-", "5", 2, 8), "particles per cell and direction";
         seed: i32 = whole("-", "0", 0, 1000),
             "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one";
     }

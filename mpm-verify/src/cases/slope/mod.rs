@@ -10,9 +10,9 @@ use section::Section;
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("25e6").within(number(1e3, 1e12, false));
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
-pub(super) const DENSITY: Parameter = common::DENSITY.with_default("2150").within(number(1e-3, 1e5, false));
+pub(super) const DENSITY: Parameter = common::DENSITY.with_default("2150").within(number(100.0, 1e4, false));
 parameters! { pub(super) const:
-    HEIGHT = "height", "m", "5", number(0.5, 100.0, false), "height H";
+    HEIGHT = "height", "m", "5", number(2.0, 100.0, false), "height H";
     CREST = "crest", "m", "10", number(0.5, 200.0, false), "length of the crest behind the face";
     FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false),
         "angle of the face against the horizontal";
@@ -22,7 +22,7 @@ pub(super) const CFL: Parameter = common::CFL
     .with_default("0.35")
     .meaning("largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.01 s, 5·10⁻⁵ s at h = 0.2 m");
 pub(super) const WALL: Parameter = common::WALL.meaning("how B-splines meet floor and walls");
-pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 8 });
+pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION.within(Domain::Integer { least: 2, most: 8 });
 
 /// The section, with its height (and width) as labelled.
 pub(super) fn sketch(height: &str) -> Sketch {

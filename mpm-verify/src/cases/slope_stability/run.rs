@@ -186,6 +186,10 @@ impl Problem<2> for Trials {
         let quotient = "density g height / young_modulus";
         let why = "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
         require_quotient(quotient, strain, 0.0..=2.0 * FAILS, why)?;
+        let factor =
+            std::f64::consts::FRAC_1_SQRT_2 * setup.strength * STABILITY.0 / (setup.density * GRAVITY * setup.height);
+        let quotient = "factor of safety at 45° by strength, density and height";
+        require_quotient(quotient, factor, 1.0..=setup.most, "the factors that are tried")?;
         let ground = Ground::new(&setup, 1.0)?;
         Ok(Self { setup, ground })
     }

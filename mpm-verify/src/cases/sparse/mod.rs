@@ -8,6 +8,7 @@ mod run;
 use super::analysis::case_of;
 use super::family::{implicit, levels, pairs};
 use super::parameters as common;
+use crate::parameter::Domain;
 use crate::prelude::*;
 
 choices! {
@@ -21,7 +22,7 @@ parameters! {
         layout: Layout = Layout::Random.by_default(),
             "lattice; jittered: anywhere in its own part of a cell; random: anywhere in its cell; scattered: anywhere in the body; holes: a lattice that lacks one particle of every cell";
         seeds: usize = whole("-", "20", 1, 1000), "clouds that are tried, of the same kind";
-        ppc_per_direction: usize = common::PPC_PER_DIRECTION.with_default("1");
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION.with_default("1").within(Domain::Integer { least: 1, most: 4 });
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
         cfl: f64 = common::CFL.with_default("0.3");
     }

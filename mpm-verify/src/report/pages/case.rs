@@ -161,6 +161,9 @@ fn by_level(case: &Case, own: &[&Convergence]) -> Sheet {
     Sheet::new(head.chain(["order", "between levels"])).with(own.iter().map(row))
 }
 
+/// Most checks that a line names.
+const SHOWN: usize = 3;
+
 /// A run on a line: what decides its verdict, what the case shows of it, what it cost.
 fn of_runs(case: &Case, study: &CaseStudy) -> Table {
     let row = |r: &Record| {
@@ -169,6 +172,7 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
         let deciding = distinct(own.filter(|v| v.decides()).map(|v| &*v.check));
         let why = match &r.error {
             Some(e) => format!("broke down at {} s", number(Some(e.time))),
+            None if deciding.len() > SHOWN => format!("{}, …", deciding[..SHOWN].join(", ")),
             None => deciding.join(", "),
         };
         let (level, set) = (r.level.clone(), r.set.join(" "));
