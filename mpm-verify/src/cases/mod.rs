@@ -38,6 +38,7 @@ mod newton;
 mod noise;
 mod observe;
 pub(crate) mod parameters;
+mod patch;
 mod pictures;
 mod poro;
 mod rest;
@@ -95,6 +96,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         sparse::case(),
         thin::case(),
         rest::case(),
+        patch::case(),
     ]
 });
 

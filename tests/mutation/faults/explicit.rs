@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const EXPLICIT: [Fault; 23] = [
+pub(crate) const EXPLICIT: [Fault; 28] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "explicit/transfer/kernel.rs",
@@ -165,5 +165,40 @@ pub(crate) const EXPLICIT: [Fault; 23] = [
         sound: "patch.sum(&weights[p])",
         broken: "patch.sum(&weights[p.saturating_sub(1)])",
         seen_by: &[(VORTEX, "no-locking")],
+    },
+    Fault {
+        name: "the affine transfer takes the moment of an endless grid",
+        file: "explicit/transfer/apic.rs",
+        sound: "mass / moment[a]",
+        broken: "mass / Eight::splat(0.25 * lattice.grid.h * lattice.grid.h)",
+        seen_by: &[(AFFINE, "affine")],
+    },
+    Fault {
+        name: "half of the filter's correction is lost",
+        file: "explicit/transfer/xpic.rs",
+        sound: "own.change - *mapped / Node::splat(node.mass())",
+        broken: "(own.change - *mapped / Node::splat(node.mass())) * Node::splat(0.5)",
+        seen_by: &[(FILTERED, "filter"), (WAVE, "filter")],
+    },
+    Fault {
+        name: "one entry of the gradient of velocity is a fiftieth too large",
+        file: "explicit/stages.rs",
+        sound: "received.gradient(a, b)",
+        broken: "received.gradient(a, b) * Eight::splat(if (a, b) == (1, 2) { 1.02 } else { 1.0 })",
+        seen_by: &[(NINE_ENTRIES, "affine")],
+    },
+    Fault {
+        name: "the work of damping is not booked",
+        file: "explicit/stages.rs",
+        sound: "self.ledger.accumulated.damping += dt * sums.damping",
+        broken: "()",
+        seen_by: &[(DAMPED, "damping-is-booked")],
+    },
+    Fault {
+        name: "a hundredth of the work of damping is lost",
+        file: "stage/local_damping.rs",
+        sound: "opposing * v.abs()",
+        broken: "0.99 * opposing * v.abs()",
+        seen_by: &[(DAMPED, "damping-is-booked")],
     },
 ];

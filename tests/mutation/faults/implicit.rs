@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const IMPLICIT: [Fault; 25] = [
+pub(crate) const IMPLICIT: [Fault; 28] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -178,5 +178,26 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
         sound: "Dual::variable(f[(i, j)], D * i + j)",
         broken: "Dual::<N>::variable(f64::from(u8::from(i == j)), D * i + j)",
         seen_by: &[(BEAM, "newton")],
+    },
+    Fault {
+        name: "Newmark's weight of the new acceleration is a hundredth too large",
+        file: "implicit/dynamics.rs",
+        sound: "SVector::from(*before) * (1.0 - delta) + after * delta",
+        broken: "SVector::from(*before) * (1.0 - 1.01 * delta) + after * (1.01 * delta)",
+        seen_by: &[(NEWMARK, "newmark-keeps")],
+    },
+    Fault {
+        name: "held nodes keep the acceleration that they would have",
+        file: "implicit/dynamics.rs",
+        sound: "acceleration[axis] = change / dt",
+        broken: "let _ = change;",
+        seen_by: &[(NEWMARK, "newmark-keeps")],
+    },
+    Fault {
+        name: "Newmark's rule starts without an acceleration",
+        file: "implicit/dynamics.rs",
+        sound: "elements.value(p, &acceleration).into()",
+        broken: "[0.0; D]",
+        seen_by: &[(FALLING, "free-fall")],
     },
 ];

@@ -1,0 +1,429 @@
+//! A body that stretches, shears and falls: what a scheme must reproduce exactly, next to walls too.
+//!
+//! Set-up, choices and tolerances: `docs/patch.md`.
+
+use super::family::{implicit, levels, pairs};
+use super::parameters as common;
+use crate::prelude::*;
+use crate::statistics::rms;
+use mpm_core::material::NeoHookean;
+use mpm_core::stage::Gravity;
+use mpm_core::{Error as Fault, Law};
+use mpm_solvers::{Solvable, Solved, stable_cfl};
+use nalgebra::{Matrix3, SMatrix};
+use std::f64::consts::TAU;
+use std::ops::AddAssign;
+
+/// Steps of a run, and its duration (s).
+const STEPS: u64 = 20;
+const DURATION: f64 = 1.0;
+/// Way of waves in the run, in cells: stresses are there to be measured and move next to nothing.
+const WAVES: f64 = 1e-4;
+/// Density (kg/m³); side of the body (m).
+const DENSITY: f64 = 1000.0;
+const SIDE: f64 = 1.0;
+/// Velocity gradient, over the strain and the duration: nine entries, all different, that move every particle away from the walls.
+const GRADIENT: [[f64; 3]; 3] = [[0.9, 0.5, 0.8], [0.6, 1.1, 0.7], [1.2, 1.0, 1.3]];
+/// Direction of the fall.
+const DOWN: [f64; 3] = [0.6, 0.8, 1.0];
+/// Cells between a side of the body and the particles that see no node beside which matter is missing.
+const MARGIN: f64 = 3.0;
+/// Cells of room beyond the body's way.
+const ROOM: f64 = 3.0;
+/// Rounding of a few steps, and last bits of a coordinate that a step may lose.
+const ROUNDING: f64 = 1e-9;
+const LAST_BITS: f64 = 4.0;
+/// An error that tells nothing.
+const VAGUE: f64 = 0.1;
+const VAGUELY: &str = "so small a strain, or so long a way, lets every error pass";
+
+parameters! {
+    /// Parameters of the body.
+    struct Moved {
+        dimension: usize = whole("-", "2", 2, 3), "dimension";
+        strain: f64 = real("-", "1e-6", 0.0, 1e-4), "size of the strain at the end";
+        waves: usize = whole("-", "0", 0, 3),
+            "waves of velocity along the first axis of a periodic body that stand for the constant gradient; 0: none";
+        fall: f64 = real("h", "0", 0.0, 0.5), "way that gravity and the speed of the start make each, in cells";
+        damping: f64 = common::DAMPING, "explicit: local damping factor";
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        lumped: f64 = common::LUMPED;
+        alpha: f64 = common::ALPHA;
+        delta: f64 = common::DELTA;
+        tolerance: f64 = common::TOLERANCE;
+    }
+}
+
+metrics! { ALL:
+    DISPLACEMENT_ERROR = "displacement_error", "-",
+        "rms error of the displacement over its exact rms; with apic and xpic2, or without a strain, of all particles, else of those three cells inside";
+    VELOCITY_ERROR = "velocity_error", "-", "likewise of the velocity, half a step before the end of an explicit run; with xpic2 of what its filter leaves";
+    STRESS_ERROR = "stress_error", "-", "likewise of the stress, where there is a strain";
+    VELOCITY_KEPT = "velocity_kept", "-", "of waves, without a fall: share of the rms velocity that a step keeps, by all but the first";
+    STRAIN_OF_WAVES = "strain_of_waves", "-",
+        "share of the strain that the stress may add or take in the duration: docs/patch.md";
+    DAMPED_RATIO = "damped_ratio", "-", "work of damping over the exact one, without a strain";
+    MASS = "mass", "kg", "mass of the body, per metre in plane strain";
+}
+
+pub(super) fn case() -> Case {
+    let levels = levels(SIDE, [("n8", 8.0)]);
+    Case {
+        description: "A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
+                      and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.",
+        references: vec!["Exact: an affine motion without forces, and free fall.".to_owned()],
+        limits: &[
+            "Transfers without an affine part see a gradient in the interior of a regular lattice alone.",
+            "Walls that hold nodes are not here: their share in a transfer is judged by drift alone.",
+        ],
+        plan: plan(&levels),
+        levels,
+        checks: checks(),
+        headlines: vec![
+            headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9),
+            headline(VELOCITY_ERROR, "velocity (–)", 1.0, 9),
+            headline(STRESS_ERROR, "stress (–)", 1.0, 9),
+            headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6),
+        ],
+        watched: &["displacement_error", "kinetic_energy"],
+        sketch: Sketch {
+            shapes: vec![
+                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+                Shape::Load([0.4, 0.4], [0.7, 0.7]),
+                Shape::note([0.5, -0.1], "wall that doesn't hold"),
+                Shape::length([0.0, 1.1], [1.0, 1.1], "1 m"),
+            ],
+            description: "A cube that stretches, shears and falls away from the walls of its corner.",
+        },
+        cost: Box::new(|_| 0.01),
+        begin: Box::new(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
+            2 => crate::problem::begin::<2, Moving>(spec, values),
+            _ => crate::problem::begin::<3, Moving>(spec, values),
+        }),
+        ..Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL)
+    }
+}
+
+fn plan(levels: &[Level]) -> Vec<Family> {
+    let none = [RemedyName::None];
+    let plain = pairs(&[Gimp, Bspline2], &none);
+    let affine = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Apic));
+    let filters = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Xpic2));
+    let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &none);
+    Plan::of(levels)
+        .runs(Quick, "n8", &affine[1..], "")
+        .runs(Pr, "n8", &affine, "")
+        .each(Pr, "n8", &filters, ["", "waves=1", "waves=2"])
+        .each(Pr, "n8", &plain, ["dimension=3", "strain=0 fall=0.2 damping=0.5"])
+        .runs(Pr, "n8", &moved, "strain=0 fall=0.2")
+        .done()
+}
+
+impl Setup<Moved> {
+    fn is_affine(&self) -> bool {
+        self.transfer() == TransferName::Apic
+    }
+
+    /// The gradient of the displacement at the end.
+    fn gradient<const D: usize>(&self) -> SMatrix<f64, D, D> {
+        SMatrix::from_fn(|i, j| self.strain * GRADIENT[i][j])
+    }
+
+    /// Share of a wave that comes back from the nodes: its mean square of functions over the places of a cell.
+    fn returned(&self) -> f64 {
+        let count = self.ppc_per_direction as f64;
+        let angle = TAU * self.waves as f64 * self.h / SIDE;
+        let places = (0..self.ppc_per_direction).map(|k| (k as f64 + 0.5) / count);
+        let squares = places.map(|s| match self.basis() {
+            Bspline2 => {
+                // From the middle of the cell, where the nearest function has its node.
+                let off = s - 0.5;
+                let [below, above] = [0.5 - off, 0.5 + off].map(|end| 0.5 * end * end);
+                let middle = 0.75 - off * off;
+                let along = middle + (below + above) * angle.cos();
+                along * along + ((above - below) * angle.sin()).powi(2)
+            }
+            _ => 1.0 - 2.0 * s * (1.0 - s) * (1.0 - angle.cos()),
+        });
+        squares.sum::<f64>() / count
+    }
+
+    /// Functions at a place on an axis (cells from the wall), from that of their first node on.
+    fn functions(&self, place: f64) -> (usize, [f64; 3]) {
+        let s = place.fract();
+        let functions = match self.basis() {
+            Bspline2 if place < 1.0 => [(1.0 - s).powi(2), s * (2.0 - 1.5 * s), 0.5 * s * s],
+            Bspline2 => [0.5 * (1.0 - s).powi(2), 0.5 + s - s * s, 0.5 * s * s],
+            _ => [1.0 - s, s, 0.0],
+        };
+        (place as usize, functions)
+    }
+
+    /// What so many steps of xpic2 leave of the places (m) of a line of particles that starts at the wall, as velocities.
+    fn filtered(&self, steps: u64) -> Vec<f64> {
+        let per_cell = self.ppc_per_direction as f64;
+        let count = (SIDE / self.h * per_cell).round() as usize;
+        let places: Vec<f64> = (0..count).map(|k| (k as f64 + 0.5) / per_cell).collect();
+        let to_nodes = |values: &[f64]| {
+            let mut sums = vec![[0.0; 2]; count + 3];
+            for (place, value) in places.iter().zip(values) {
+                let (first, functions) = self.functions(*place);
+                for (sum, w) in sums[first..].iter_mut().zip(functions) {
+                    *sum = [sum[0] + w, sum[1] + w * value];
+                }
+            }
+            let mean = |[mass, sum]: [f64; 2]| if mass > 0.0 { sum / mass } else { 0.0 };
+            sums.into_iter().map(mean).collect::<Vec<f64>>()
+        };
+        let from_nodes = |nodes: &[f64]| {
+            let value = |place: &f64| {
+                let (first, functions) = self.functions(*place);
+                nodes[first..].iter().zip(functions).map(|(v, w)| v * w).sum::<f64>()
+            };
+            places.iter().map(value).collect::<Vec<f64>>()
+        };
+        let mut values: Vec<f64> = places.iter().map(|place| place * self.h).collect();
+        for _ in 0..steps {
+            let once = to_nodes(&values);
+            let twice = to_nodes(&from_nodes(&once));
+            let corrected: Vec<f64> = once.iter().zip(&twice).map(|(once, twice)| 2.0 * once - twice).collect();
+            values = from_nodes(&corrected);
+        }
+        values
+    }
+
+    /// Largest way of a particle, in cells.
+    fn way(&self) -> f64 {
+        let largest = GRADIENT.iter().map(|row| row.iter().sum::<f64>()).fold(0.0, f64::max);
+        self.strain * largest * SIDE / self.h + 2.0 * self.fall
+    }
+
+    /// Displacement (m) of the start's speed at the end, and of the acceleration that damping leaves.
+    fn ways<const D: usize>(&self) -> [[f64; D]; 2] {
+        let way = std::array::from_fn(|a| self.fall * self.h * DOWN[a]);
+        [way, way.map(|way| way * (1.0 - self.damping))]
+    }
+}
+
+impl Run<'_, Moved> {
+    /// Largest relative error of an affine motion: docs/patch.md.
+    fn affine_bound(&self) -> f64 {
+        let nearest = 0.5 / self.ppc_per_direction as f64;
+        let moved = if self.transfer() != TransferName::Flip { self.way() / nearest } else { self.way() };
+        let rounding = LAST_BITS * f64::EPSILON * STEPS as f64 / self.strain;
+        self.metric(STRAIN_OF_WAVES) + moved + rounding
+    }
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Moved>;
+    type Demand = crate::demand::Demand<Moved>;
+    let left = |b: &Run<Moved>| if b.is_implicit() { b.tolerance * STEPS as f64 } else { 0.0 };
+    vec![
+        Check::truth("affine", "apic, at walls as well, and flip three cells inside: displacement, velocity and stress of a constant gradient of velocity are exact within what the stress moves, what moments change as particles move, with flip the strain of the lattice, and rounding")
+            .when(|b| b.strain > 0.0 && b.damping == 0.0 && b.waves == 0)
+            .when(|b| b.is_affine() || b.scheme == Scheme::flip(b.basis(), b.remedy()))
+            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
+            .each([DISPLACEMENT_ERROR, VELOCITY_ERROR, STRESS_ERROR].map(|of| Demand::at_most(of, |b: &Run<Moved>| b.affine_bound())))
+            .because("APIC keeps an affine field wherever particles lie (Jiang et al. 2015); nodes amid a regular lattice have their mass' centre"),
+        Check::truth("filter", "xpic2: a step keeps 1 − (1 − λ)² of waves, λ what comes back from the nodes; at walls and sides it keeps of a constant gradient of velocity what (1 − S S⁺)² leaves to lines of particles; within the bound of affine")
+            .when(|b| b.strain > 0.0 && b.fall == 0.0 && b.transfer() == TransferName::Xpic2)
+            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
+            .each([
+                Demand::within(VELOCITY_KEPT, |b: &Run<Moved>| 1.0 - (1.0 - b.returned()).powi(2), |b| b.affine_bound()).when(|b| b.waves > 0),
+                Demand::at_most(VELOCITY_ERROR, |b: &Run<Moved>| b.affine_bound()).when(|b| b.waves == 0),
+            ])
+            .because("Hammerquist & Nairn 2017: (1 − S S⁺)^m is taken; functions in closed form, docs/patch.md"),
+        Check::truth("free-fall", "without a strain: displacement and velocity are those of a constant acceleration to rounding, implicit to what Newton's method leaves")
+            .when(|b| b.strain == 0.0 && b.fall > 0.0)
+            .each([DISPLACEMENT_ERROR, VELOCITY_ERROR].map(|of| Demand::at_most(of, move |b: &Run<Moved>| ROUNDING + left(b))))
+            .because("central differences, the midpoint rule and Newmark's are exact where the acceleration is constant, if it is there at the start"),
+        Check::truth("damping-is-booked", "local damping in free fall: the work that the program books is α of gravity's on the way that the nodes have before each step, to rounding")
+            .when(|b| b.strain == 0.0 && b.fall > 0.0 && b.damping > 0.0)
+            .within(DAMPED_RATIO, |_| 1.0, |_| ROUNDING)
+            .because("docs/patch.md"),
+    ]
+}
+
+/// A body that moves.
+struct Moving {
+    setup: Setup<Moved>,
+    law: NeoHookean,
+    dt: f64,
+}
+
+impl Moving {
+    /// Second moment (m²) of the functions at a place on an axis from the wall: closed forms, docs/patch.md.
+    fn second_moment(&self, x: f64) -> f64 {
+        let place = x / self.setup.h;
+        let share = match self.setup.basis() {
+            Bspline2 if place < 1.0 => 0.25 * (1.0 - (1.0 - place).powi(2)),
+            Bspline2 => 0.25,
+            _ => place.fract() * (1.0 - place.fract()),
+        };
+        share * self.setup.h * self.setup.h
+    }
+
+    /// Exact displacement (m) of a material point, and the velocity (m/s) of the time `lag` (s) earlier.
+    fn exact<const D: usize>(&self, x: &[f64; D], t: f64, lag: f64) -> [[f64; D]; 2] {
+        let (gradient, [speed, pull]) = (self.setup.gradient::<D>(), self.setup.ways::<D>());
+        let (s, earlier) = (t / DURATION, (t - lag) / DURATION);
+        let wave = (TAU * self.setup.waves as f64 * x[0] / SIDE).sin();
+        let strained: [f64; D] = std::array::from_fn(|a| match self.setup.waves {
+            0 => (0..D).map(|b| gradient[(a, b)] * x[b]).sum(),
+            _ => gradient[(a, 0)] * SIDE * wave,
+        });
+        let displacement = |a: usize| (strained[a] + speed[a]) * s + pull[a] * s * s;
+        let velocity = |a: usize| (strained[a] + speed[a] + 2.0 * pull[a] * earlier) / DURATION;
+        [std::array::from_fn(displacement), std::array::from_fn(velocity)]
+    }
+
+    fn lag(&self) -> f64 {
+        if self.setup.is_implicit() { 0.0 } else { 0.5 * self.dt }
+    }
+
+    /// Errors of displacement, velocity and stress over the exact ones.
+    fn errors<const D: usize>(&self, run: &mut dyn Simulation<D>) -> [f64; 3] {
+        let (t, stress) = (run.time(), run.force_stress());
+        let mut f = Matrix3::identity();
+        f.fixed_view_mut::<D, D>(0, 0).add_assign(self.setup.gradient::<D>() * (t / DURATION));
+        let (exact_stress, _) = self.law.at_rest(&f);
+        let inside = MARGIN * self.setup.h..=SIDE - MARGIN * self.setup.h;
+        let transfers = [TransferName::Apic, TransferName::Xpic2];
+        let everywhere = transfers.contains(&self.setup.transfer()) || self.setup.strain == 0.0;
+        let filters = self.setup.transfer() == TransferName::Xpic2 && self.setup.waves == 0;
+        let line = filters.then(|| self.setup.filtered(run.work().steps));
+        let size = self.setup.h / self.setup.ppc_per_direction as f64;
+        let p = run.particles();
+        let mut pairs: [Vec<(f64, f64)>; 3] = Default::default();
+        let mut put = |which: usize, found: f64, exact: f64| pairs[which].push((found - exact, exact));
+        for k in 0..p.len() {
+            if !everywhere && !p.reference[k].iter().all(|x| inside.contains(x)) {
+                continue;
+            }
+            let [u, mut v] = self.exact(&p.reference[k], t, self.lag());
+            if let Some(line) = &line {
+                let place = p.reference[k].map(|x| line[(x / size) as usize]);
+                v = self.exact(&place, t, self.lag())[1];
+            }
+            for a in 0..D {
+                put(0, p.position[k][a] - p.reference[k][a], u[a]);
+                put(1, p.velocity[k][a], v[a]);
+                (0..D).for_each(|b| put(2, stress[k].get(a, b), exact_stress.get(a, b)));
+            }
+        }
+        pairs.map(|pairs| rms(pairs.iter().map(|(off, _)| *off)) / rms(pairs.iter().map(|(_, exact)| *exact)))
+    }
+
+    /// The work of damping (J), exactly: α ρ V g of the way that the velocities before each step make.
+    fn damped<const D: usize>(&self, mass: f64) -> f64 {
+        let [speed, pull] = self.setup.ways::<D>();
+        let lag = 2.0 * self.dt / DURATION;
+        let work = |a: usize| 2.0 * speed[a] / DURATION.powi(2) * (speed[a] + pull[a] - lag * pull[a]);
+        self.setup.damping * mass * (0..D).map(work).sum::<f64>()
+    }
+}
+
+impl<const D: usize> Problem<D> for Moving
+where
+    NeoHookean: Solvable<D> + Solved<D>,
+{
+    type Parameters = Moved;
+    type Seen = Rows;
+
+    fn new(setup: Setup<Moved>) -> Result<Self, Error> {
+        setup.check_rule()?;
+        if setup.is_implicit() {
+            setup.forbid(&["damping"])?;
+        }
+        let ratio = setup.poisson_ratio;
+        let speed = WAVES * setup.h / DURATION;
+        let unit = NeoHookean::new(1.0, ratio)?.wave_speed(DENSITY);
+        let law = NeoHookean::new((speed / unit).powi(2), ratio)?;
+        Ok(Self { law, dt: DURATION / STEPS as f64, setup })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        self.setup.discretisation(D, self.setup.ppc_per_direction.pow(D as u32), self.dt)
+    }
+
+    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<D>>, Fault> {
+        let h = self.setup.h;
+        let cells = (SIDE / h).round();
+        let ways = self.exact(&[SIDE; D], DURATION, 0.0)[0];
+        let axis = |way: f64| {
+            let count = (cells + way / h + ROOM).ceil() as usize;
+            match self.setup.waves {
+                0 => Axis::bounded(0.0, count, (Side::Wall, Side::Open)),
+                _ => Axis::periodic(0.0, cells as usize),
+            }
+        };
+        let size = h / self.setup.ppc_per_direction as f64;
+        let along = cells as usize * self.setup.ppc_per_direction;
+        let place = |k: usize, a: usize| ((k / along.pow(a as u32) % along) as f64 + 0.5) * size;
+        let places = (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| place(k, a)));
+        let places = self.setup.start_at(places);
+        let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
+        for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
+            *v = self.exact(x, 0.0, self.lag())[1];
+        }
+        if self.setup.is_affine() {
+            let rate = self.setup.gradient::<D>() / DURATION;
+            let moment = |x: &[f64; D]| SMatrix::from_fn(|i, j| rate[(i, j)] * self.second_moment(x[j]));
+            particles.affine = particles.position.iter().map(moment).collect();
+        }
+        let pull = self.setup.ways::<D>()[0].map(|way| 2.0 * way / DURATION.powi(2));
+        let scene = Scene::new(Grid::new(h, ways.map(axis))?, Body::new(self.law, particles)?);
+        let scene = scene.load(Gravity(Box::new(move |_| pull)));
+        match self.setup.implicit_settings(self.dt) {
+            Some(settings) => mpm_solvers::implicit(self.setup.scheme, scene, settings),
+            None => {
+                let settings = self.setup.settings(self.dt, self.setup.damping)?;
+                mpm_solvers::solver(self.setup.scheme, scene, settings)
+            }
+        }
+    }
+
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<D>) -> Result<Row, Fault> {
+        seen.sample(phase, [STEPS, STEPS], |run| {
+            let [displacement, _, _] = self.errors(run);
+            row! {
+                "time (s)": run.time(),
+                "displacement_error (-)": if run.time() > 0.0 { displacement } else { 0.0 },
+                "kinetic_energy (J)": run.totals().kinetic_energy,
+            }
+        })
+    }
+
+    fn progress(&self, _: &Rows, phase: &Phase<D>) -> f64 {
+        phase.share_of(STEPS)
+    }
+
+    fn particles<'a>(&self, _: &Rows, columns: Columns<'a, D>) -> Columns<'a, D> {
+        columns.velocities().each("mean_stress", "Pa", |p, k| p.stress[k].mean()).jacobian()
+    }
+
+    fn metrics(&self, seen: &Rows, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
+        let [displacement, velocity, stress] = self.errors(phase.run.as_mut());
+        let totals = phase.run.totals();
+        let half_size = 0.5 / self.setup.ppc_per_direction as f64;
+        let stable = stable_cfl(self.setup.basis(), D, half_size).unwrap_or(f64::NAN);
+        let mut values = vec![
+            (DISPLACEMENT_ERROR, displacement),
+            (VELOCITY_ERROR, velocity),
+            (STRAIN_OF_WAVES, 2.0 * (WAVES / stable).powi(2)),
+            (MASS, totals.mass),
+        ];
+        if self.setup.waves > 0 {
+            let energy = seen.column("kinetic_energy");
+            let kept = energy.last().zip(energy.get(1)).map_or(f64::NAN, |(last, first)| last / first);
+            values.push((VELOCITY_KEPT, kept.powf(0.5 / (STEPS - 1) as f64)));
+        } else if self.setup.strain > 0.0 {
+            values.push((STRESS_ERROR, stress));
+        } else if self.setup.damping > 0.0 {
+            values.push((DAMPED_RATIO, totals.accumulated.damping / self.damped::<D>(totals.mass)));
+        }
+        values
+    }
+}
