@@ -331,3 +331,26 @@ fn the_schema_is_that_of_the_reader() {
     let scored: Vec<&str> = cases::scored().map(|(case, _)| case.name).collect();
     assert_eq!(schema["properties"]["case"]["enum"], json!(scored));
 }
+
+#[test]
+fn a_gate_that_judged_nothing_does_not_pass_silently() {
+    let copy = Copy::of("consolidation");
+    let score = |more: &[&str]| {
+        let output = mpm_verify(&[&["score", text(&copy.folder), "--quiet"], more].concat());
+        (code(&output), stdout(&output) + &stderr(&output))
+    };
+    let refused = score(&["--require", "settelment"]);
+    assert!(refused.0 == 2 && refused.1.contains("the nearest is settlement"), "{}", refused.1);
+    copy.change("series.csv", "base_pressure (-)", None);
+    let file = copy.folder.join("junit.xml");
+    for (more, expected) in [("--quiet", 0), ("--strict", 1), ("--require=settlement,base-pressure", 1)] {
+        let more = if more == "--quiet" { vec![] } else { vec![more] };
+        let (found, said) = score(&[&more[..], &["--junit", text(&file)]].concat());
+        assert_eq!((found, said.contains("Not passed: ")), (expected, expected == 1), "{more:?}: {said}");
+        let failures = fs::read_to_string(&file).unwrap().matches("<failure").count();
+        assert_eq!(failures, expected as usize, "{more:?}");
+    }
+    copy.change("series.csv", "settlement (-)", None);
+    let (found, said) = score(&[]);
+    assert!(found == 1 && said.contains("missing: settlement (-)"), "{said}");
+}

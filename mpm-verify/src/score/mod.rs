@@ -4,6 +4,7 @@
 //! The format: `docs/reference/score.md`.
 
 pub mod export;
+pub mod gate;
 pub mod manifest;
 mod vtu;
 

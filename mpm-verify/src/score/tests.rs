@@ -1,5 +1,7 @@
 //! Results that were never computed: a reference told as a code's own, and what is wrong with it.
 
+mod gate;
+
 use super::*;
 use crate::cases::find_scored;
 use crate::error::Error;
@@ -75,8 +77,9 @@ impl Answer {
     }
 }
 
+/// Outcomes of the checks, those of wanted quantities apart.
 fn outcomes(scored: &Scored) -> Vec<(&str, Outcome)> {
-    let verdicts = scored.record.verdicts.iter();
+    let verdicts = scored.record.verdicts.iter().filter(|v| !v.is_wanted());
     verdicts.map(|v| (&*v.check, v.outcome)).collect()
 }
 
@@ -116,7 +119,7 @@ fn a_wrong_column_fails_and_without_it_nothing_is_judged() {
     result.change(SETTLED, None);
     let without = result.score().unwrap();
     assert_eq!(outcomes(&without), of(Outcome::NotJudged));
-    let unjudged = &without.record.verdicts[0];
+    let unjudged = without.record.verdicts.iter().find(|v| !v.is_wanted()).unwrap();
     assert_eq!(unjudged.source, "missing: settlement (-) of the series");
     assert_eq!(unjudged.value, None);
     let missing: Vec<String> = without.missing.iter().map(Asked::header).collect();
