@@ -67,6 +67,32 @@ impl Asked {
 /// Metrics of a result.
 pub type Measured = Result<Vec<(Metric, f64)>, Error>;
 
+/// What the rows of a series leave open of a metric.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Gap {
+    /// They do not show it, and why.
+    Unknown(String),
+    /// It is taken between them, with an error of at most this.
+    Error(f64),
+}
+
+impl Gap {
+    /// Why a verdict can't be given, if it can't.
+    #[must_use]
+    pub fn refusal(&self, tolerance: Option<f64>) -> Option<String> {
+        match (self, tolerance) {
+            (Self::Unknown(why), _) => Some(why.clone()),
+            (Self::Error(error), Some(allowed)) if !(*error <= allowed) => Some(format!(
+                "taken between rows with an error of up to {error:.2e}, where {allowed:.2e} is allowed: closer rows show it"
+            )),
+            _ => None,
+        }
+    }
+}
+
+/// Metrics that the rows of a series leave open.
+pub type Gaps = Result<Vec<(Metric, Gap)>, Error>;
+
 /// Metrics, and the columns that all of them are measured from.
 pub struct Group {
     /// The columns.
@@ -88,6 +114,10 @@ pub struct Foreign {
     pub discretisation: fn(&RunSpec, &Parameters, f64) -> Discretisation,
     /// Groups of metrics, each with the columns it needs.
     pub groups: Vec<Group>,
+    /// The column by which the rows of the series are ordered, if there is one.
+    pub abscissa: Option<Asked>,
+    /// What the rows leave open.
+    pub gaps: fn(&Given) -> Gaps,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
     /// The problem in words: body, supports, loads, end.
@@ -141,6 +171,27 @@ impl Given {
     pub fn rows(&self, part: Part) -> usize {
         let table = self.tables.iter().find(|(of, ..)| *of == part);
         table.map_or(0, |(.., table)| table.rows())
+    }
+
+    /// Checks that the rows of the series rise along their abscissa.
+    ///
+    /// # Errors
+    /// A row does not: the error names its line.
+    pub(crate) fn require_order(&self, abscissa: &Asked) -> Result<(), Error> {
+        let column = self.column(abscissa);
+        let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
+            return Ok(());
+        };
+        let path = self.tables.iter().find(|(of, ..)| *of == abscissa.part);
+        let path = path.map_or(Path::new("series"), |(_, path, _)| path);
+        let said = format!(
+            "line {}: {} {} after {}; allowed: rows in rising order",
+            row + 3,
+            abscissa.header(),
+            column[row + 1],
+            column[row]
+        );
+        Err(Error::file(path, said))
     }
 
     /// Two columns as points.
@@ -268,6 +319,8 @@ mod tests {
             groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])],
             judged_as: own.judged_as,
             discretisation: own.discretisation,
+            abscissa: None,
+            gaps: own.gaps,
             start: own.start,
             setup: own.setup,
             curves: own.curves,

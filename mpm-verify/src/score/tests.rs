@@ -1,5 +1,6 @@
 //! Results that were never computed: a reference told as a code's own, and what is wrong with it.
 
+mod coverage;
 mod gate;
 
 use super::*;
@@ -125,19 +126,6 @@ fn a_wrong_column_fails_and_without_it_nothing_is_judged() {
     let missing: Vec<String> = without.missing.iter().map(Asked::header).collect();
     assert_eq!(missing, [SETTLED]);
     assert!(!without.record.metrics.contains_key("settlement_error"));
-}
-
-/// A metric that can't be measured is not a number, and fails.
-#[test]
-fn a_series_that_ends_early_fails() {
-    let result = Answer::of_column();
-    let text = result.text("series.csv");
-    let first: Vec<&str> = text.lines().take(3).collect();
-    fs::write(result.path("series.csv"), first.join("\n") + "\n").unwrap();
-    let scored = result.score().unwrap();
-    assert_eq!(scored.record.metrics["settlement_error"].value, None);
-    let failed = ["settlement", "base-pressure"].map(|check| (check, Outcome::Failed));
-    assert_eq!(outcomes(&scored), failed);
 }
 
 #[test]

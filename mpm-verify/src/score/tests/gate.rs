@@ -14,7 +14,7 @@ fn without(lost: &[&str]) -> Scored {
     result.score().unwrap()
 }
 
-fn gate(strict: bool, require: &[&str]) -> Gate {
+pub(super) fn gate(strict: bool, require: &[&str]) -> Gate {
     Gate { strict, require: require.iter().map(|name| (*name).to_owned()).collect() }
 }
 
