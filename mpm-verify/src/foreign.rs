@@ -62,6 +62,18 @@ impl Asked {
     pub fn header(&self) -> String {
         format!("{} ({})", self.name, self.unit)
     }
+
+    /// Whether a head names it, if its case, blanks, brackets, marks and unit are left out of account.
+    fn is_meant_by(&self, head: &str) -> bool {
+        let name = head.split(['(', '[', '{', '<']).find(|part| !letters(part).is_empty());
+        let [whole, name] = [head, name.unwrap_or_default()].map(letters);
+        [letters(self.name), letters(&self.header())].iter().any(|own| *own == whole || *own == name)
+    }
+}
+
+/// Letters and digits of a head.
+fn letters(head: &str) -> String {
+    head.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Metrics of a result.
@@ -236,7 +248,8 @@ impl Given {
     /// Checks the heads of the tables against the columns that a case asks for: those that it does not know.
     ///
     /// # Errors
-    /// A table has no row, or too many, or a column in another unit.
+    /// A table has no row, or too many, or a column in another unit, or one whose head misses a name that is asked for by
+    /// case, blanks, brackets or marks.
     pub fn require_heads(&self, asked: &[Asked]) -> Result<Vec<String>, Error> {
         let mut unknown = Vec::new();
         for (part, path, table) in &self.tables {
@@ -246,8 +259,7 @@ impl Given {
                 return Err(Error::file(path, said));
             }
             for (head, _) in table.iter() {
-                let name = head.split(" (").next().unwrap_or(head);
-                match asked.iter().find(|a| a.part == *part && a.name == name) {
+                match asked.iter().find(|a| a.part == *part && a.is_meant_by(head)) {
                     Some(own) if own.header() != head => {
                         let said = format!("column \"{head}\"; allowed: \"{}\"", own.header());
                         return Err(Error::file(path, said));
@@ -358,6 +370,37 @@ mod tests {
         let told = heads(["time (s)", "force (kN)"]).unwrap_err().to_string();
         let said = "column \"force (kN)\"; allowed: \"force (N)\"";
         assert!(told.contains("series.csv") && told.contains(said), "{told}");
+    }
+
+    #[test]
+    fn a_head_that_misses_a_name_by_its_form_is_refused_with_the_name() {
+        let asked = [X, Y, TIME, FORCE];
+        for head in [
+            "# force (N)",
+            "#force (N)",
+            "force",
+            "force [N]",
+            "force(N)",
+            "FORCE (N)",
+            " force (N)",
+            "force  (N)",
+            "force ( N )",
+            "force_(N)",
+            "force N",
+            "force, N",
+            "force (n)",
+            "\"force (N)\"",
+            "(force)",
+            "Force {kN}",
+            "force <N>",
+        ] {
+            let told = given(["time (s)", head]).require_heads(&asked).unwrap_err().to_string();
+            let said = format!("column \"{}\"; allowed: \"force (N)\"", crate::error::one_line(head));
+            assert!(told.contains(&said), "{told}");
+        }
+        for other in ["forces (N)", "force_x (N)", "Force on base (N)", "#", "", "(N)"] {
+            assert_eq!(given(["time (s)", other]).require_heads(&asked).unwrap(), [other]);
+        }
     }
 
     #[test]
