@@ -11,7 +11,7 @@ use crate::table::Table;
 use std::path::{Path, PathBuf};
 
 /// Most rows of a table.
-const MOST_ROWS: usize = 5_000_000;
+pub(crate) const MOST_ROWS: usize = 5_000_000;
 
 /// The table that a column stands in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -185,11 +185,11 @@ impl Given {
         table.map_or(0, |(.., table)| table.rows())
     }
 
-    /// Checks that the rows of the series rise along their abscissa.
+    /// Checks that the rows of the series, which stand in these lines of its file, rise along their abscissa.
     ///
     /// # Errors
     /// A row does not: the error names its line.
-    pub(crate) fn require_order(&self, abscissa: &Asked) -> Result<(), Error> {
+    pub(crate) fn require_order(&self, abscissa: &Asked, lines: &[u64]) -> Result<(), Error> {
         let column = self.column(abscissa);
         let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
             return Ok(());
@@ -198,7 +198,7 @@ impl Given {
         let path = path.map_or(Path::new("series"), |(_, path, _)| path);
         let said = format!(
             "line {}: {} {} after {}; allowed: rows in rising order",
-            row + 3,
+            lines.get(row + 1).copied().unwrap_or_default(),
             abscissa.header(),
             column[row + 1],
             column[row]

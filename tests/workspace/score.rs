@@ -273,7 +273,7 @@ fn what_is_wrong_is_named() {
         (with(series, json!("link.csv")), "a link, which is not followed"),
         (with(series, json!("pipe.csv")), "not a plain file"),
         (with(series, json!("units.csv")), "allowed: \"reaction_y (N/m)\""),
-        (with(series, json!("nan.csv")), "row 1: NaN"),
+        (with(series, json!("nan.csv")), "line 2, column \"reaction_y (N/m)\": \"NaN\""),
         (with(series, json!("empty.csv")), "0 rows where 1 to"),
         (with(series, json!("short.csv")), "short.csv"),
     ] {

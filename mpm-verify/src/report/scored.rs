@@ -21,6 +21,8 @@ use std::path::{Path, PathBuf};
 
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;
+/// Most names of columns in a note.
+const MOST: usize = 20;
 
 /// Our runs of the same level and parameters, from the rows that are kept.
 pub struct Ours {
@@ -104,7 +106,11 @@ fn notes(scored: &Scored) -> Vec<String> {
     let missing: Vec<String> = scored.missing.iter().map(name).collect();
     let told = [("Not given", &missing), ("Not asked for", &scored.unknown)];
     let told = told.into_iter().filter(|(_, names)| !names.is_empty());
-    told.map(|(what, names)| format!("{what}: {}.", names.join(", "))).collect()
+    let listed = |names: &[String]| match names.len().checked_sub(MOST) {
+        None | Some(0) => names.join(", "),
+        Some(more) => format!("{} and {more} more", names[..MOST].join(", ")),
+    };
+    told.map(|(what, names)| format!("{what}: {}.", listed(names))).collect()
 }
 
 /// On the terminal: what is measured, verdicts, our runs, and the verdict in one line.

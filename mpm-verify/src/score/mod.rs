@@ -3,6 +3,7 @@
 //!
 //! The format: `docs/reference/score.md`.
 
+mod columns;
 pub mod export;
 pub mod gate;
 pub mod manifest;
@@ -53,16 +54,13 @@ impl Scored {
         let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
-        let given = Given {
-            discretisation: (foreign.discretisation)(&spec, &parameters, dt),
-            spec,
-            parameters,
-            tables: tables(folder, &manifest, foreign)?,
-        };
+        let (tables, lines) = tables(folder, &manifest, foreign)?;
+        let given =
+            Given { discretisation: (foreign.discretisation)(&spec, &parameters, dt), spec, parameters, tables };
         let asked = foreign.columns();
         let unknown = given.require_heads(&asked)?;
         if let Some(abscissa) = &foreign.abscissa {
-            given.require_order(abscissa)?;
+            given.require_order(abscissa, &lines)?;
         }
         let gaps = (foreign.gaps)(&given)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
@@ -92,11 +90,14 @@ impl Scored {
     }
 }
 
-/// The tables that a manifest names.
-fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(Part, PathBuf, Table)>, Error> {
+/// Tables with their files.
+type Tables = Vec<(Part, PathBuf, Table)>;
+
+/// The tables that a manifest names, and the lines of the series' rows.
+fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tables, Vec<u64>), Error> {
     let named = [(Part::Particles, &manifest.particles), (Part::Series, &manifest.series)];
     let asked = foreign.parts();
-    let mut tables = Vec::new();
+    let (mut tables, mut lines) = (Vec::new(), Vec::new());
     for (part, name) in named {
         let Some(name) = name.as_ref().filter(|_| asked.contains(&part)) else {
             continue;
@@ -104,7 +105,13 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(
         require_inside(folder, Path::new(&name.0))?;
         let path = Manifest::beside(folder, name);
         let table = match path.extension().and_then(|e| e.to_str()) {
-            Some("csv") => Table::read_finite(&path)?,
+            Some("csv") => {
+                let (table, own) = columns::read(&path)?;
+                if part == Part::Series {
+                    lines = own;
+                }
+                table
+            }
             Some("vtu") if part == Part::Particles => vtu::read(&path)?,
             _ => {
                 let allowed = match part {
@@ -122,7 +129,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(
         let said = format!("no table; this case is scored by: {}", names.join(", "));
         return Err(Error::file(&folder.join(FILE), said));
     }
-    Ok(tables)
+    Ok((tables, lines))
 }
 
 /// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and
