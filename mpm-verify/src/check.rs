@@ -63,6 +63,11 @@ impl Check {
         }
     }
 
+    /// Whether it is decided by one run.
+    pub(crate) fn is_of_run(&self) -> bool {
+        matches!(self.on, On::Run(_))
+    }
+
     fn verdicts(&self, found: Vec<Finding>) -> Vec<Verdict> {
         found.into_iter().map(|f| f.verdict(self.name, self.kind)).collect()
     }

@@ -11,7 +11,7 @@ use crate::table::Table;
 use std::path::{Path, PathBuf};
 
 /// Most rows of a table.
-const MOST_ROWS: usize = 5_000_000;
+pub(crate) const MOST_ROWS: usize = 5_000_000;
 
 /// The table that a column stands in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,10 +62,48 @@ impl Asked {
     pub fn header(&self) -> String {
         format!("{} ({})", self.name, self.unit)
     }
+
+    /// Whether a head names it, if its case, blanks, brackets, marks and unit are left out of account.
+    fn is_meant_by(&self, head: &str) -> bool {
+        let name = head.split(['(', '[', '{', '<']).find(|part| !letters(part).is_empty());
+        let [whole, name] = [head, name.unwrap_or_default()].map(letters);
+        [letters(self.name), letters(&self.header())].iter().any(|own| *own == whole || *own == name)
+    }
+}
+
+/// Letters and digits of a head.
+fn letters(head: &str) -> String {
+    head.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 
 /// Metrics of a result.
 pub type Measured = Result<Vec<(Metric, f64)>, Error>;
+
+/// What the rows of a series leave open of a metric.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Gap {
+    /// They do not show it, and why.
+    Unknown(String),
+    /// It is taken between them, with an error of at most this.
+    Error(f64),
+}
+
+impl Gap {
+    /// Why a verdict can't be given, if it can't.
+    #[must_use]
+    pub fn refusal(&self, tolerance: Option<f64>) -> Option<String> {
+        match (self, tolerance) {
+            (Self::Unknown(why), _) => Some(why.clone()),
+            (Self::Error(error), Some(allowed)) if !(*error <= allowed) => Some(format!(
+                "taken between rows with an error of up to {error:.2e}, where {allowed:.2e} is allowed: closer rows show it"
+            )),
+            _ => None,
+        }
+    }
+}
+
+/// Metrics that the rows of a series leave open.
+pub type Gaps = Result<Vec<(Metric, Gap)>, Error>;
 
 /// Metrics, and the columns that all of them are measured from.
 pub struct Group {
@@ -88,6 +126,10 @@ pub struct Foreign {
     pub discretisation: fn(&RunSpec, &Parameters, f64) -> Discretisation,
     /// Groups of metrics, each with the columns it needs.
     pub groups: Vec<Group>,
+    /// The column by which the rows of the series are ordered, if there is one.
+    pub abscissa: Option<Asked>,
+    /// What the rows leave open.
+    pub gaps: fn(&Given) -> Gaps,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
     /// The problem in words: body, supports, loads, end.
@@ -143,6 +185,27 @@ impl Given {
         table.map_or(0, |(.., table)| table.rows())
     }
 
+    /// Checks that the rows of the series, which stand in these lines of its file, rise along their abscissa.
+    ///
+    /// # Errors
+    /// A row does not: the error names its line.
+    pub(crate) fn require_order(&self, abscissa: &Asked, lines: &[u64]) -> Result<(), Error> {
+        let column = self.column(abscissa);
+        let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
+            return Ok(());
+        };
+        let path = self.tables.iter().find(|(of, ..)| *of == abscissa.part);
+        let path = path.map_or(Path::new("series"), |(_, path, _)| path);
+        let said = format!(
+            "line {}: {} {} after {}; allowed: rows in rising order",
+            lines.get(row + 1).copied().unwrap_or_default(),
+            abscissa.header(),
+            column[row + 1],
+            column[row]
+        );
+        Err(Error::file(path, said))
+    }
+
     /// Two columns as points.
     pub(crate) fn points(&self, [x, y]: [&Asked; 2]) -> Vec<[f64; 2]> {
         let ys = self.column(y).iter();
@@ -185,7 +248,8 @@ impl Given {
     /// Checks the heads of the tables against the columns that a case asks for: those that it does not know.
     ///
     /// # Errors
-    /// A table has no row, or too many, or a column in another unit.
+    /// A table has no row, or too many, or a column in another unit, or one whose head misses a name that is asked for by
+    /// case, blanks, brackets or marks.
     pub fn require_heads(&self, asked: &[Asked]) -> Result<Vec<String>, Error> {
         let mut unknown = Vec::new();
         for (part, path, table) in &self.tables {
@@ -195,8 +259,7 @@ impl Given {
                 return Err(Error::file(path, said));
             }
             for (head, _) in table.iter() {
-                let name = head.split(" (").next().unwrap_or(head);
-                match asked.iter().find(|a| a.part == *part && a.name == name) {
+                match asked.iter().find(|a| a.part == *part && a.is_meant_by(head)) {
                     Some(own) if own.header() != head => {
                         let said = format!("column \"{head}\"; allowed: \"{}\"", own.header());
                         return Err(Error::file(path, said));
@@ -268,6 +331,8 @@ mod tests {
             groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])],
             judged_as: own.judged_as,
             discretisation: own.discretisation,
+            abscissa: None,
+            gaps: own.gaps,
             start: own.start,
             setup: own.setup,
             curves: own.curves,
@@ -305,6 +370,37 @@ mod tests {
         let told = heads(["time (s)", "force (kN)"]).unwrap_err().to_string();
         let said = "column \"force (kN)\"; allowed: \"force (N)\"";
         assert!(told.contains("series.csv") && told.contains(said), "{told}");
+    }
+
+    #[test]
+    fn a_head_that_misses_a_name_by_its_form_is_refused_with_the_name() {
+        let asked = [X, Y, TIME, FORCE];
+        for head in [
+            "# force (N)",
+            "#force (N)",
+            "force",
+            "force [N]",
+            "force(N)",
+            "FORCE (N)",
+            " force (N)",
+            "force  (N)",
+            "force ( N )",
+            "force_(N)",
+            "force N",
+            "force, N",
+            "force (n)",
+            "\"force (N)\"",
+            "(force)",
+            "Force {kN}",
+            "force <N>",
+        ] {
+            let told = given(["time (s)", head]).require_heads(&asked).unwrap_err().to_string();
+            let said = format!("column \"{}\"; allowed: \"force (N)\"", crate::error::one_line(head));
+            assert!(told.contains(&said), "{told}");
+        }
+        for other in ["forces (N)", "force_x (N)", "Force on base (N)", "#", "", "(N)"] {
+            assert_eq!(given(["time (s)", other]).require_heads(&asked).unwrap(), [other]);
+        }
     }
 
     #[test]

@@ -87,8 +87,9 @@ impl Table {
     /// Those of [`Table::read`], a column that is there twice, and a cell that is NaN or infinite.
     pub fn read_finite(path: &Path) -> Result<Self, Error> {
         let table = Self::read(path)?;
-        for (k, (name, values)) in table.iter().enumerate() {
-            if table.header[..k].iter().any(|h| h == name) {
+        let mut known = std::collections::HashSet::new();
+        for (name, values) in table.iter() {
+            if !known.insert(name) {
                 return Err(Error::file(path, format!("column {name} is there twice")));
             }
             if let Some(row) = values.iter().position(|v| !v.is_finite()) {

@@ -273,7 +273,7 @@ fn what_is_wrong_is_named() {
         (with(series, json!("link.csv")), "a link, which is not followed"),
         (with(series, json!("pipe.csv")), "not a plain file"),
         (with(series, json!("units.csv")), "allowed: \"reaction_y (N/m)\""),
-        (with(series, json!("nan.csv")), "row 1: NaN"),
+        (with(series, json!("nan.csv")), "line 2, column \"reaction_y (N/m)\": \"NaN\""),
         (with(series, json!("empty.csv")), "0 rows where 1 to"),
         (with(series, json!("short.csv")), "short.csv"),
     ] {
@@ -330,4 +330,27 @@ fn the_schema_is_that_of_the_reader() {
     }
     let scored: Vec<&str> = cases::scored().map(|(case, _)| case.name).collect();
     assert_eq!(schema["properties"]["case"]["enum"], json!(scored));
+}
+
+#[test]
+fn a_gate_that_judged_nothing_does_not_pass_silently() {
+    let copy = Copy::of("consolidation");
+    let score = |more: &[&str]| {
+        let output = mpm_verify(&[&["score", text(&copy.folder), "--quiet"], more].concat());
+        (code(&output), stdout(&output) + &stderr(&output))
+    };
+    let refused = score(&["--require", "settelment"]);
+    assert!(refused.0 == 2 && refused.1.contains("the nearest is settlement"), "{}", refused.1);
+    copy.change("series.csv", "base_pressure (-)", None);
+    let file = copy.folder.join("junit.xml");
+    for (more, expected) in [("--quiet", 0), ("--strict", 1), ("--require=settlement,base-pressure", 1)] {
+        let more = if more == "--quiet" { vec![] } else { vec![more] };
+        let (found, said) = score(&[&more[..], &["--junit", text(&file)]].concat());
+        assert_eq!((found, said.contains("Not passed: ")), (expected, expected == 1), "{more:?}: {said}");
+        let failures = fs::read_to_string(&file).unwrap().matches("<failure").count();
+        assert_eq!(failures, expected as usize, "{more:?}");
+    }
+    copy.change("series.csv", "settlement (-)", None);
+    let (found, said) = score(&[]);
+    assert!(found == 1 && said.contains("missing: settlement (-)"), "{said}");
 }

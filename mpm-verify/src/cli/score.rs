@@ -6,11 +6,10 @@ use mpm_verify::case::find_level;
 use mpm_verify::cases::find_scored;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::files::lock::hold;
-use mpm_verify::report::{describe, scored};
+use mpm_verify::report::{describe, junit, scored};
 use mpm_verify::scheme::BasisName;
-use mpm_verify::score::{Scored, export::export};
+use mpm_verify::score::{Scored, export::export, gate::Gate};
 use mpm_verify::spec::RunSpec;
-use mpm_verify::study::judge::exit_code;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -20,6 +19,15 @@ pub(crate) struct Score {
     /// Output folder for the verdicts as a page and as JSON
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Fail also if a wanted quantity is not judged (default: only if none of them is)
+    #[arg(long)]
+    strict: bool,
+    /// Checks or wanted quantities that must be judged and hold
+    #[arg(long, value_name = "CHECK,…", value_delimiter = ',')]
+    require: Vec<String>,
+    /// Write the verdicts as JUnit to this file
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
     #[command(flatten)]
     told: Told,
 }
@@ -28,17 +36,23 @@ impl Score {
     /// Judges the result in a folder; with `out`, writes it there as well.
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let found = Scored::read(&self.folder)?;
+        let gate = Gate { strict: self.strict, require: self.require };
+        gate.known_to(found.case)?;
         let ours = scored::Ours::beside(&found)?;
         if let Some(out) = &self.out {
             let _held = hold(out)?;
-            scored::write(&found, &ours, out)?;
+            scored::write(&found, &ours, &gate, out)?;
         }
+        if let Some(file) = &self.junit {
+            junit::write_scored(&found, &gate, file)?;
+        }
+        let refusal = gate.refusal(&found).map_or(String::new(), |why| why + "\n");
         match self.told {
-            Told { json: true, .. } => say_json(&scored::json(&found, &ours))?,
-            Told { quiet: true, .. } => say(describe::run_line(&found.record))?,
-            _ => say(scored::text(&found, &ours))?,
+            Told { json: true, .. } => say_json(&scored::json(&found, &ours, &gate))?,
+            Told { quiet: true, .. } => say(describe::run_line(&found.record) + &refusal)?,
+            _ => say(scored::text(&found, &ours) + &refusal)?,
         }
-        Ok(exit_code(&found.record))
+        Ok(gate.exit_code(&found))
     }
 }
 

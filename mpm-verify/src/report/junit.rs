@@ -4,6 +4,8 @@ use super::words::{demand, kind, outcome};
 use crate::error::Error;
 use crate::files::write_whole;
 use crate::record::{Failure, Record};
+use crate::score::Scored;
+use crate::score::gate::{Gate, INAPPLICABLE};
 use crate::study::summary::{CaseStudy, Summary};
 use crate::verdict::{Outcome, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
@@ -15,6 +17,36 @@ pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
     let path = out.join("junit.xml");
     let text = text(summary).map_err(|e| Error::file(&path, e))?;
     write_whole(&path, text.as_bytes())
+}
+
+/// Writes the verdicts on the result of another code. One that stands in the way of its gate is a failure.
+///
+/// # Errors
+/// The file can't be written.
+pub fn write_scored(scored: &Scored, gate: &Gate, file: &Path) -> Result<(), Error> {
+    let record = &scored.record;
+    let class = format!("{}.{}.{}", record.case, scored.manifest.code.name.0, record.level);
+    let test = |verdict: &Verdict| {
+        let status = match gate.stops(scored, verdict) {
+            true => failure(outcome(verdict.outcome), verdict.source.clone()),
+            false => status(verdict),
+        };
+        let mut test = TestCase::new(name(verdict), status);
+        test.set_classname(&*class);
+        test
+    };
+    let lacking = |name: &str| {
+        let mut test = TestCase::new(name, failure("not judged", INAPPLICABLE.to_owned()));
+        test.set_classname(&*class);
+        test
+    };
+    let mut suite = TestSuite::new(&*record.case);
+    suite.add_test_cases(record.verdicts.iter().map(test));
+    suite.add_test_cases(gate.lacking(scored).map(lacking));
+    let mut report = Report::new("mpm-verify score");
+    report.add_test_suite(suite);
+    let text = report.to_string().map_err(|e| Error::file(file, e))?;
+    write_whole(file, text.as_bytes())
 }
 
 fn text(summary: &Summary) -> Result<String, quick_junit::SerializeError> {
@@ -74,6 +106,12 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
         Outcome::WrongAsKnown => (outcome(verdict.outcome), format!("{}: {}", demand(verdict), verdict.source)),
         _ => (kind(verdict.kind), format!("{}: {}", demand(verdict), verdict.source)),
     };
+    status.set_type(of).set_message(told);
+    status
+}
+
+fn failure(of: &str, told: String) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
     status.set_type(of).set_message(told);
     status
 }

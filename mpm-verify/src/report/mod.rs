@@ -17,7 +17,7 @@ mod faults;
 #[cfg(test)]
 mod fixture;
 pub mod history;
-mod junit;
+pub mod junit;
 pub mod keep;
 mod map;
 mod pages;

@@ -12,8 +12,8 @@ use crate::files::{make_folder, write_json, write_whole};
 use crate::foreign::Asked;
 use crate::record::{Record, Status};
 use crate::results::fixed;
-use crate::score::Scored;
-use crate::study::judge::{exit_code, outcome_of_run};
+use crate::score::{Scored, gate::Gate};
+use crate::study::judge::outcome_of_run;
 use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -21,6 +21,8 @@ use std::path::{Path, PathBuf};
 
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;
+/// Most names of columns in a note.
+const MOST: usize = 20;
 
 /// Our runs of the same level and parameters, from the rows that are kept.
 pub struct Ours {
@@ -104,7 +106,11 @@ fn notes(scored: &Scored) -> Vec<String> {
     let missing: Vec<String> = scored.missing.iter().map(name).collect();
     let told = [("Not given", &missing), ("Not asked for", &scored.unknown)];
     let told = told.into_iter().filter(|(_, names)| !names.is_empty());
-    told.map(|(what, names)| format!("{what}: {}.", names.join(", "))).collect()
+    let listed = |names: &[String]| match names.len().checked_sub(MOST) {
+        None | Some(0) => names.join(", "),
+        Some(more) => format!("{} and {more} more", names[..MOST].join(", ")),
+    };
+    told.map(|(what, names)| format!("{what}: {}.", listed(names))).collect()
 }
 
 /// On the terminal: what is measured, verdicts, our runs, and the verdict in one line.
@@ -125,7 +131,7 @@ pub fn text(scored: &Scored, ours: &Ours) -> String {
 
 /// As JSON.
 #[must_use]
-pub fn json(scored: &Scored, ours: &Ours) -> Value {
+pub fn json(scored: &Scored, ours: &Ours, gate: &Gate) -> Value {
     let record = &scored.record;
     let others = ours.runs.iter();
     let others = others.map(|r| {
@@ -138,7 +144,8 @@ pub fn json(scored: &Scored, ours: &Ours) -> Value {
         "case": record.case,
         "level": record.level,
         "set": record.set,
-        "exit_code": exit_code(record) as u8,
+        "exit_code": gate.exit_code(scored) as u8,
+        "refusal": gate.refusal(scored),
         "outcome": outcome_of_run(record),
         "verdict": sentence(record),
         "metrics": record.metrics,
@@ -151,10 +158,13 @@ pub fn json(scored: &Scored, ours: &Ours) -> Value {
 ///
 /// # Errors
 /// A file can't be written.
-pub fn write(scored: &Scored, ours: &Ours, folder: &Path) -> Result<(), Error> {
+pub fn write(scored: &Scored, ours: &Ours, gate: &Gate, folder: &Path) -> Result<(), Error> {
     let record = &scored.record;
     let mut document = Document::new(title(scored));
     document.paragraph(sentence(record) + ".");
+    if let Some(refusal) = gate.refusal(scored) {
+        document.paragraph(refusal + ".");
+    }
     document.table("", table(scored, ours));
     if let Some(absent) = &ours.absent {
         document.paragraph(&**absent);
@@ -166,6 +176,6 @@ pub fn write(scored: &Scored, ours: &Ours, folder: &Path) -> Result<(), Error> {
         document.paragraph(note);
     }
     make_folder(folder)?;
-    write_json(&folder.join("verdicts.json"), &json(scored, ours))?;
+    write_json(&folder.join("verdicts.json"), &json(scored, ours, gate))?;
     write_whole(&folder.join("score.md"), document.markdown().as_bytes())
 }

@@ -3,7 +3,9 @@
 //!
 //! The format: `docs/reference/score.md`.
 
+mod columns;
 pub mod export;
+pub mod gate;
 pub mod manifest;
 mod vtu;
 
@@ -11,7 +13,8 @@ use crate::case::{Case, find_level};
 use crate::cases::find_scored;
 use crate::error::Error;
 use crate::files::require_inside;
-use crate::foreign::{Asked, Foreign, Given, Part};
+use crate::foreign::{Asked, Foreign, Gap, Given, Part};
+use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
@@ -51,14 +54,15 @@ impl Scored {
         let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
-        let given = Given {
-            discretisation: (foreign.discretisation)(&spec, &parameters, dt),
-            spec,
-            parameters,
-            tables: tables(folder, &manifest, foreign)?,
-        };
+        let (tables, lines) = tables(folder, &manifest, foreign)?;
+        let given =
+            Given { discretisation: (foreign.discretisation)(&spec, &parameters, dt), spec, parameters, tables };
         let asked = foreign.columns();
         let unknown = given.require_heads(&asked)?;
+        if let Some(abscissa) = &foreign.abscissa {
+            given.require_order(abscissa, &lines)?;
+        }
+        let gaps = (foreign.gaps)(&given)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
         let discretisation = given.discretisation.clone();
         let (spec, parameters) = (&given.spec, &given.parameters);
@@ -74,22 +78,26 @@ impl Scored {
                 let mut values: BTreeMap<&str, f64> = values.into_iter().map(|(m, value)| (m.name, value)).collect();
                 for metric in &group.metrics {
                     // What should have been measured and was not is no number, which no check passes.
-                    let value = values.remove(metric.name).filter(|v| v.is_finite());
+                    let unknown = gaps.iter().any(|(of, gap)| of == metric && matches!(gap, Gap::Unknown(_)));
+                    let value = values.remove(metric.name).filter(|v| v.is_finite() && !unknown);
                     let unit = metric.unit.to_owned();
                     record.metrics.insert(metric.name.to_owned(), Measured { value, unit });
                 }
             }
         }
-        record.verdicts = judge(case, foreign, &given, &record);
+        record.verdicts = judge(case, foreign, &given, &gaps, &record);
         Ok(Self { manifest, case, record, missing, unknown })
     }
 }
 
-/// The tables that a manifest names.
-fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(Part, PathBuf, Table)>, Error> {
+/// Tables with their files.
+type Tables = Vec<(Part, PathBuf, Table)>;
+
+/// The tables that a manifest names, and the lines of the series' rows.
+fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tables, Vec<u64>), Error> {
     let named = [(Part::Particles, &manifest.particles), (Part::Series, &manifest.series)];
     let asked = foreign.parts();
-    let mut tables = Vec::new();
+    let (mut tables, mut lines) = (Vec::new(), Vec::new());
     for (part, name) in named {
         let Some(name) = name.as_ref().filter(|_| asked.contains(&part)) else {
             continue;
@@ -97,7 +105,13 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(
         require_inside(folder, Path::new(&name.0))?;
         let path = Manifest::beside(folder, name);
         let table = match path.extension().and_then(|e| e.to_str()) {
-            Some("csv") => Table::read_finite(&path)?,
+            Some("csv") => {
+                let (table, own) = columns::read(&path)?;
+                if part == Part::Series {
+                    lines = own;
+                }
+                table
+            }
             Some("vtu") if part == Part::Particles => vtu::read(&path)?,
             _ => {
                 let allowed = match part {
@@ -115,12 +129,13 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<Vec<(
         let said = format!("no table; this case is scored by: {}", names.join(", "));
         return Err(Error::file(&folder.join(FILE), said));
     }
-    Ok(tables)
+    Ok((tables, lines))
 }
 
 /// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and
-/// what is measured from a column that is missing is not judged.
-fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<Verdict> {
+/// what is measured from a column that is missing, or left open by the rows of the series, is not judged.
+fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
+    let unjudged = |v: Verdict, why: String| Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v };
     let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
     let verdicts = case.verdicts(record).into_iter().filter(of_code);
     let judged = verdicts.filter_map(|v| {
@@ -128,11 +143,15 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, record: &Record) -> Vec<
         let group = groups.find(|g| g.metrics.iter().any(|m| m.name == v.metric))?;
         let mut lacking = group.columns.iter().filter(|c| !given.has(c)).peekable();
         if lacking.peek().is_none() {
-            return Some(v);
+            let mut open = gaps.iter().filter(|(metric, _)| metric.name == v.metric);
+            return match open.find_map(|(_, gap)| gap.refusal(v.tolerance)) {
+                Some(why) => Some(unjudged(v, why)),
+                None => Some(v),
+            };
         }
         let lacking = lacking.map(|c| format!("{} of the {}", c.header(), c.part.name()));
         let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
-        Some(Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v })
+        Some(unjudged(v, why))
     });
     settled(&case.wanted, judged.collect())
 }

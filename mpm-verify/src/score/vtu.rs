@@ -7,12 +7,17 @@ use crate::table::Table;
 use flate2::read::ZlibDecoder;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
+use std::cell::Cell;
+use std::collections::HashSet;
 use std::io::Read;
 use std::path::Path;
 
 /// Most points, and most compressed blocks of an array.
 const MOST: usize = 5_000_000;
 const MOST_BLOCKS: u64 = 100_000;
+/// Most bytes that arrays come to, over those of the file, and more for a small one.
+const MOST_PACKED: u64 = 64;
+const SMALL: u64 = 1 << 20;
 /// The element behind whose mark the numbers of all arrays may stand.
 const APPENDED: &[u8] = b"<AppendedData";
 const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
@@ -37,6 +42,8 @@ const KINDS: [Kind; 10] = [
 /// Layout of all arrays, from the head of a file.
 #[derive(Default)]
 struct Layout {
+    /// Bytes that arrays may still come to.
+    left: Cell<u64>,
     points: Option<usize>,
     big_endian: bool,
     long_headers: bool,
@@ -71,6 +78,7 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let (mut layout, arrays) = described(head, usize::from(end.is_some()))?;
     let tag = tail.iter().position(|b| *b == b'>').unwrap_or(tail.len());
     let (tag, data) = tail.split_at(tag);
+    layout.left.set(MOST_PACKED * bytes.len() as u64 + SMALL);
     layout.appended_base64 = tag.windows(6).any(|w| w == b"base64");
     let mark = data.iter().position(|b| *b == b'_');
     let data = mark.map_or(&[][..], |mark| &data[mark + 1..]);
@@ -87,8 +95,9 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
             columns.push((array.name, numbers));
         }
     }
-    for (k, (name, values)) in columns.iter().enumerate() {
-        if columns[..k].iter().any(|(other, _)| other == name) {
+    let mut known = HashSet::new();
+    for (name, values) in &columns {
+        if !known.insert(name) {
             return Err(format!("array {name:?} is there twice"));
         }
         if let Some(row) = values.iter().position(|v| !v.is_finite()) {
@@ -207,6 +216,7 @@ impl Array {
         let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
         let (_, size, value) = known.ok_or_else(|| format!("type {:?}", self.kind))?;
         let whole = (count * size) as u64;
+        layout.spend(8 * count as u64)?;
         let wrong = |what: &str| format!("{what}, where {whole} bytes are described");
         let mut bytes = Vec::new();
         if layout.compressed {
@@ -215,8 +225,10 @@ impl Array {
             if blocks > MOST_BLOCKS {
                 return Err(wrong("too many blocks"));
             }
+            layout.spend(8 * blocks)?;
             let sizes = (0..blocks).map(|_| header()).collect::<Result<Vec<_>, _>>()?;
             for size in sizes {
+                layout.spend(size)?;
                 let mut packed = from.by_ref().take(size);
                 let left = (whole + 1).saturating_sub(bytes.len() as u64);
                 let inflated = ZlibDecoder::new(&mut packed).take(left).read_to_end(&mut bytes);
@@ -267,6 +279,15 @@ impl Layout {
             Some(_) => Ok(()),
             None => Err(format!("NumberOfPoints: 1 to {MOST} are allowed")),
         }
+    }
+
+    /// Takes bytes from what arrays may come to: a small file must not take much time or memory.
+    fn spend(&self, bytes: u64) -> Result<(), String> {
+        let left = self.left.get().checked_sub(bytes);
+        let said =
+            || format!("{bytes} bytes, with which the arrays are more than {MOST_PACKED} times as large as the file");
+        self.left.set(left.ok_or_else(said)?);
+        Ok(())
     }
 
     /// Up to eight bytes, the lowest first.

@@ -55,6 +55,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 },
             },
         ],
+        abscissa: None,
+        gaps: |_| Ok(Vec::new()),
         start: |spec, parameters| {
             Ok(start_columns(Setup::<Cantilever>::of_spec(spec, parameters)?.scene()?.particles()))
         },

@@ -3,8 +3,9 @@
 use super::run::{PER_CELL, Seen};
 use super::*;
 use crate::cases::observe::start_columns;
-use crate::foreign::{Asked, Foreign, Given, Group};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group};
 use crate::parameter::ParameterSet;
+use crate::sampled::{Sampled, uncovered};
 
 const TIME: Asked = Asked::series(
     "time_factor",
@@ -36,6 +37,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 measure: |given| Ok(setup(given)?.base_pressure_metrics(&rows(given))),
             },
         ],
+        abscissa: Some(TIME),
+        gaps,
         start: |spec, parameters| {
             let setup = Setup::<Consolidation>::of_spec(spec, parameters)?;
             Ok(start_columns(setup.begin(&Seen::default())?.particles()))
@@ -62,6 +65,28 @@ pub(in crate::cases) fn foreign() -> Foreign {
 
 fn setup(given: &Given) -> Result<Setup<Consolidation>, Error> {
     Setup::of_spec(&given.spec, &given.parameters)
+}
+
+/// The times of the reference are to lie between rows, and those so close that the curve is known between them.
+fn gaps(given: &Given) -> Gaps {
+    let exact = solution(setup(given)?.load, None);
+    let (time, Some(first), Some(last)) = (given.column(&TIME), exact.first(), exact.last()) else {
+        return Ok(Vec::new());
+    };
+    let gap = |asked: &Asked, scale: fn(&At) -> f64| {
+        if let Some(why) = uncovered(TIME.name, TIME.unit, time, [first.t, last.t], f64::INFINITY) {
+            return Gap::Unknown(why);
+        }
+        let curve = Sampled::new(time, given.column(asked));
+        // Rows that end just before the last time are extrapolated.
+        let error = |at: &At| curve.at(at.t.min(time[time.len() - 1])).map(|b| b.error / scale(at));
+        match exact.iter().map(error).collect::<Option<Vec<f64>>>() {
+            Some(errors) => Gap::Error(errors.into_iter().fold(0.0, f64::max)),
+            None => Gap::Unknown(format!("{} rows are too few to know the curve between them", time.len())),
+        }
+    };
+    let settlement = gap(&SETTLEMENT, |at| at.settlement);
+    Ok(vec![(SETTLEMENT_ERROR, settlement), (BASE_PRESSURE_ERROR, gap(&BASE, |_| 1.0))])
 }
 
 /// The rows that a code gives; missing values are zero, which no group takes.

@@ -4,7 +4,7 @@ use super::probes::Probes;
 use super::run::energy_defect;
 use super::*;
 use crate::cases::observe::{column, discretisation, start_columns};
-use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
@@ -21,6 +21,9 @@ const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
 const STRESS_WORK: Asked = Asked::series("stress_work", "J/m", "work of the stress so far");
 const LOAD_WORK: Asked = Asked::series("load_work", "J/m", "work of the load so far");
 const LOSSES: Asked = Asked::series("damping_losses", "J/m", "what damping has taken so far");
+
+/// Largest share of the load's work between two rows.
+const LOADING: f64 = 0.25;
 
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
@@ -64,6 +67,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 measure: energy_gain,
             },
         ],
+        abscissa: None,
+        gaps,
         start: |spec, parameters| {
             let particles = Setup::<Cook>::of_spec(spec, parameters)?.loaded_particles()?;
             let mut columns = start_columns(&particles);
@@ -90,10 +95,24 @@ fn probes(given: &Given) -> Result<Probes, Error> {
     Probes::new(given.points([&START_X, &START_Y]), given.spec.level.h)
 }
 
+/// A bound on the energy over the whole loading is judged of rows that show the loading: between two of them the load does
+/// at most a quarter of its work.
+fn gaps(given: &Given) -> Gaps {
+    let work = given.column(&LOAD_WORK);
+    let most = LOADING * work.last().copied().unwrap_or_default();
+    let begins = work.first().copied().into_iter();
+    let mut steps = begins.chain(work.windows(2).map(|pair| pair[1] - pair[0]));
+    let why = "the load does more than a quarter of its work before the first row or between two rows";
+    let gap = (most > 0.0 && steps.any(|step| step > most)).then(|| (ENERGY_GAIN, Gap::Unknown(why.to_owned())));
+    Ok(gap.into_iter().collect())
+}
+
 fn energy_gain(given: &Given) -> Measured {
     let [kinetic, stress, load, losses] = [&KINETIC, &STRESS_WORK, &LOAD_WORK, &LOSSES].map(|c| given.column(c));
     let rows = 0..kinetic.len();
     let defects = rows.map(|k| energy_defect(kinetic[k], stress[k], losses[k], load[k]));
-    let gain = defects.fold(0.0, f64::max) / load.last().copied().unwrap_or(f64::NAN);
+    // A load that moves against itself has another sign than is asked for.
+    let work = load.last().copied().filter(|work| *work > 0.0);
+    let gain = defects.fold(0.0, f64::max) / work.unwrap_or(f64::NAN);
     Ok(vec![(ENERGY_GAIN, gain)])
 }

@@ -1,11 +1,12 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
 use super::flow::{Flow, State};
-use super::reference::front_curve;
+use super::reference::{COMPARED, front_curve, passage, time_scale};
 use super::run::Dam;
 use super::*;
 use crate::cases::observe::{column, start_columns};
-use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
+use crate::sampled::{Sampled, uncovered};
 
 const TIME: Asked = Asked::series("time", "s", "time since the gate was removed, a row every 0.005 s");
 const FRONT: Asked = Asked::series("front", "m", "x of the outermost particle and half its spacing");
@@ -21,6 +22,13 @@ const COVERED: Asked = Asked::series(
     "m²",
     "area under the highest particles, in strips two particles wide, with half a spacing on top",
 );
+
+/// Time (s) at which the area is measured.
+const EARLY: f64 = 0.4;
+/// Largest time (s) between rows that show the energies over the whole flow, a ninth of √(H/g).
+const MOVING: f64 = 0.05;
+/// Least number of intervals between rows in which the front is compared.
+const INTERVALS: f64 = 5.0;
 
 pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
@@ -44,6 +52,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
             },
             Group { columns: &[TIME, COVERED], metrics: vec![COVERED_EARLY], measure: of_flow },
         ],
+        abscissa: Some(TIME),
+        gaps,
         start: |spec, parameters| {
             let run = Dam::new(Setup::of_spec(spec, parameters)?)?.released()?;
             let p = run.particles();
@@ -80,5 +90,48 @@ fn of_flow(given: &Given) -> Measured {
     };
     let rows = (0..given.column(&TIME).len()).map(row).collect();
     let density = Setup::<DamBreak>::of_spec(&given.spec, &given.parameters)?.density;
-    Ok(Flow { rows }.metrics(density, given.spec.level.h))
+    let mut metrics = Flow { rows }.metrics(density, given.spec.level.h);
+    for (metric, column) in [(FRONT_X_EARLY, FRONT), (COVERED_EARLY, COVERED)] {
+        let between = Sampled::new(given.column(&TIME), given.column(&column)).at(EARLY);
+        let value = between.map_or(f64::NAN, |b| b.value);
+        metrics.iter_mut().filter(|(m, _)| *m == metric).for_each(|(_, own)| *own = value);
+    }
+    Ok(metrics)
+}
+
+/// The rows are to show the front while it is compared, the area at its time, and the energies over the whole flow.
+fn gaps(given: &Given) -> Gaps {
+    let time = given.column(&TIME);
+    let setup = Setup::<DamBreak>::of_spec(&given.spec, &given.parameters)?;
+    let shown = |span: [f64; 2], widest: f64| uncovered(TIME.name, TIME.unit, time, span, widest);
+    let unknown = |metrics: &[Metric], why: &str| {
+        let gap = |metric: &Metric| (*metric, Gap::Unknown(why.to_owned()));
+        metrics.iter().map(gap).collect::<Vec<_>>()
+    };
+    let mut gaps = Vec::new();
+    let [from, to] = [COMPARED.0, COMPARED.1].map(|t| t * time_scale());
+    let front = Sampled::new(time, given.column(&FRONT));
+    match (shown([from, to], (to - from) / INTERVALS), front.error(from, to)) {
+        (Some(why), _) => gaps.extend(unknown(&[FRONT_RMS_ERROR, ARRIVAL_TIME, ARRIVAL_ERROR, FRONT_SPEED_MAX], &why)),
+        (None, error) => {
+            let error = error.unwrap_or(f64::INFINITY);
+            gaps.push((FRONT_RMS_ERROR, Gap::Error(error)));
+            let passes = passage(TANK - 2.0 * given.spec.level.h).map_or(f64::NAN, |(_, speed)| speed);
+            gaps.push((ARRIVAL_ERROR, Gap::Error(error / passes)));
+        }
+    }
+    if let Some(why) = shown([0.0, setup.duration], MOVING) {
+        gaps.extend(unknown(&[ENERGY_EXCESS, MOTION_EXCESS, MOTION_LOSS, FRONT_SPEED_MAX], &why));
+    }
+    match (shown([EARLY; 2], MOVING), Sampled::new(time, given.column(&COVERED)).at(EARLY)) {
+        (None, Some(between)) => gaps.push((COVERED_EARLY, Gap::Error(between.error))),
+        (why, _) => gaps.extend(unknown(&[COVERED_EARLY], &why.unwrap_or_else(|| format!("no rows around {EARLY} s")))),
+    }
+    // A front that has not arrived may do so after the end.
+    let arrives = given.column(&FRONT).iter().any(|x| *x >= TANK - 2.0 * given.spec.level.h);
+    let ends = time.last().is_some_and(|last| *last < setup.duration * (1.0 - 1e-6));
+    if ends && !arrives {
+        gaps.extend(unknown(&[ARRIVAL_TIME, ARRIVAL_ERROR], "the series ends before the front arrives"));
+    }
+    Ok(gaps)
 }

@@ -1,10 +1,11 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
-use super::curve::{Load, LoadCurve, WINDOW};
+use super::curve::{Load, LoadCurve, WINDOW, bearing_factor, plateau};
 use super::reference::limit_curve;
 use super::*;
 use crate::cases::observe::{discretisation, start_columns};
-use crate::foreign::{Asked, Foreign, Given, Group, Measured};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
+use crate::sampled::{Between, Sampled, uncovered};
 
 const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
@@ -18,6 +19,13 @@ const PENETRATED: Asked = Asked::series("penetration", "-", "penetration over B"
 const FORCE: Asked =
     Asked::series("footing_force", "N/m", "upward force of the ground on the half of the footing that is simulated");
 const BASE: Asked = Asked::series("base_force", "N/m", "downward force of the ground on its base");
+
+/// Share of the penetration by which rows may go beyond its end.
+const BEYOND: f64 = 0.01;
+/// Least number of rows in the window of a point of the curve of which the mean is taken; of fewer it is taken between rows.
+const DENSE: usize = 4;
+/// Least number of intervals between rows on the plateau, and on the whole curve of an elastic ground.
+const INTERVALS: (f64, f64) = (4.0, 10.0);
 
 pub(in crate::cases) fn foreign() -> Foreign {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
@@ -58,6 +66,8 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 },
             },
         ],
+        abscissa: Some(PENETRATED),
+        gaps,
         start: |spec, parameters| {
             let pressing = Pressing::new(Setup::of_spec(spec, parameters)?)?;
             let run = pressing.begin(&pressing.unseen())?;
@@ -92,7 +102,59 @@ fn of_rows(given: &Given, base: Option<&Asked>, of: fn(&LoadCurve<'_>) -> Vec<(M
         force: forces[k],
         base: bases.map_or(f64::NAN, |base| base[k]),
     };
-    let rows: Vec<Load> = penetrations.map(row).collect();
     let setup = setup(given)?;
-    Ok(of(&setup.load_curve(&rows, setup.pace()?.begun(), WINDOW)))
+    let end = setup.penetration * (1.0 + BEYOND);
+    let rows: Vec<Load> = penetrations.map(row).filter(|row| row.penetration <= end).collect();
+    let mut metrics = of(&setup.load_curve(&rows, setup.pace()?.begun(), WINDOW));
+    for (metric, value) in &mut metrics {
+        let point = CURVE.iter().find(|(of, _)| of == metric);
+        if let Some(between) = point.and_then(|(_, point)| between(given, &setup, *point)) {
+            *value = between.map_or(f64::NAN, |b| b.value);
+        }
+    }
+    Ok(metrics)
+}
+
+/// The load over B between rows that are too far apart for a mean around `point`; nothing where they are not.
+fn between(given: &Given, setup: &Setup<Footing>, point: f64) -> Option<Option<Between>> {
+    let penetrations = given.column(&PENETRATED);
+    let near = penetrations.iter().filter(|x| (*x - point).abs() <= WINDOW).count();
+    if near >= DENSE {
+        return None;
+    }
+    // Without penetration there is no load.
+    let start = penetrations.first().is_some_and(|x| *x > 0.0).then_some(0.0);
+    let x: Vec<f64> = start.into_iter().chain(penetrations.iter().copied()).collect();
+    let loads = given.column(&FORCE).iter().map(|force| bearing_factor(*force, WIDTH, setup.undrained_strength));
+    let y: Vec<f64> = start.into_iter().chain(loads).collect();
+    Some(Sampled::new(&x, &y).at(point))
+}
+
+/// The rows are to show the plateau up to the end, and of an elastic ground the whole curve; points of the curve may lie
+/// between them.
+fn gaps(given: &Given) -> Gaps {
+    let setup = setup(given)?;
+    let (x, end) = (given.column(&PENETRATED), setup.penetration);
+    let shown = |from: f64, intervals: f64| {
+        uncovered(PENETRATED.name, PENETRATED.unit, x, [from, end], (end - from) / intervals)
+    };
+    let mut gaps = Vec::new();
+    if let Some(why) = shown(plateau(end), INTERVALS.0) {
+        let of_plateau = [NC_B, NC_B_PLUS_H, NC_EFFECTIVE, PRANDTL_ERROR, PLATEAU_RISE, FORCE_IMBALANCE];
+        gaps.extend(of_plateau.map(|metric| (metric, Gap::Unknown(why.clone()))));
+    }
+    if let Some(why) = shown(0.0, INTERVALS.1) {
+        gaps.push((ELASTIC_SLOPE, Gap::Unknown(why)));
+    }
+    for &(metric, point) in CURVE {
+        match between(given, &setup, point) {
+            Some(Some(between)) => gaps.push((metric, Gap::Error(between.error))),
+            Some(None) => {
+                let why = format!("no rows around penetration = {point}");
+                gaps.push((metric, Gap::Unknown(why)));
+            }
+            None => {}
+        }
+    }
+    Ok(gaps)
 }

@@ -178,7 +178,7 @@ fn base64_is_decoded() {
 
 #[test]
 fn packed_numbers_are_as_many_as_they_say() {
-    let layout = |compressed| Layout { compressed, ..Layout::default() };
+    let layout = |compressed| Layout { compressed, left: Cell::new(SMALL), ..Layout::default() };
     let of = |kind: &str| {
         let element = BytesStart::new("DataArray");
         Array { kind: kind.to_owned(), ..Array::of(&element, false) }
@@ -224,4 +224,32 @@ fn packed_numbers_are_as_many_as_they_say() {
     assert_eq!(said(true, &header(1, &[])), "no header");
     let broken = said(true, &[header(1, &[4]), vec![1, 2, 3, 4]].concat());
     assert!(broken.ends_with(", where 4 bytes are described"), "{broken}");
+}
+
+/// Constant numbers pack to a thousandth, and an array may be described as often as one likes.
+#[test]
+fn a_small_file_does_not_come_to_large_arrays() {
+    let points = 1_000_000;
+    let part = |k: usize| format!(r#"<DataArray type="Int8" Name="a{k}" format="appended" offset="0"/>"#);
+    let with = |arrays: usize| {
+        let arrays: String = (0..arrays).map(part).collect();
+        let mut file = format!(
+            r#"<VTKFile type="UnstructuredGrid" compressor="vtkZLibDataCompressor"><UnstructuredGrid><Piece NumberOfPoints="{points}">
+            <PointData>{arrays}</PointData></Piece></UnstructuredGrid><AppendedData encoding="raw">_"#
+        )
+        .into_bytes();
+        let mut packed = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::best());
+        std::io::Write::write_all(&mut packed, &vec![1; points]).unwrap();
+        let packed = packed.finish().unwrap();
+        for header in [1, points, 0, packed.len()] {
+            file.extend((header as u32).to_le_bytes());
+        }
+        file.extend(packed);
+        file.extend(b"</AppendedData></VTKFile>");
+        file.resize(200_000, b' ');
+        table(&file).map(|table| table.rows())
+    };
+    assert_eq!(with(1), Ok(points));
+    let said = with(2).unwrap_err();
+    assert!(said.contains("more than 64 times as large as the file"), "{said}");
 }

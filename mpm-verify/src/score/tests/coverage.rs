@@ -1,0 +1,151 @@
+//! Series that end early, are coarse, of other units or out of order.
+
+use super::*;
+
+/// A result of a case with a series of these columns.
+fn with_series(case: &str, level: &str, columns: &[(&str, Vec<f64>)]) -> Answer {
+    let result = Answer::exported(case, level, &[]);
+    let columns = columns.iter().map(|(head, values)| ((*head).to_owned(), values.clone()));
+    Table::of_columns(columns.collect()).write(&result.path("series.csv")).unwrap();
+    result.say("particles", Value::Null);
+    result
+}
+
+/// The inviscid front, told as that of a code, after `change` of its rows.
+fn front(change: fn(&mut Vec<(f64, f64)>)) -> Result<Scored, Error> {
+    let curve = Answer::exported("dam-break", "h0.5", &[]);
+    let mut rows = Table::read(&curve.path("reference-front.csv")).unwrap().points("time", "front");
+    change(&mut rows);
+    let (time, front) = rows.into_iter().unzip();
+    with_series("dam-break", "h0.5", &[("time (s)", time), ("front (m)", front)]).score()
+}
+
+/// Outcome and source of the checks of a name.
+fn found(scored: &Scored, check: &str) -> Vec<(Outcome, String)> {
+    let own = scored.record.verdicts.iter().filter(|v| v.check == check && !v.is_wanted());
+    own.map(|v| (v.outcome, v.source.clone())).collect()
+}
+
+#[test]
+fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
+    let sound = front(|_| ()).unwrap();
+    for check in ["front", "arrival"] {
+        assert_eq!(found(&sound, check)[0].0, Outcome::Right, "{:?}", found(&sound, check));
+    }
+    type Change = fn(&mut Vec<(f64, f64)>);
+    let changes: [(Change, &str); 5] = [
+        (|rows| rows.iter_mut().for_each(|row| row.0 *= 1000.0), "begins at time"),
+        (|rows| rows.iter_mut().for_each(|row| row.0 += 1.0), "begins at time"),
+        (|rows| rows.iter_mut().for_each(|row| row.0 /= 60.0), "ends at time"),
+        (|rows| rows.retain(|row| row.0 < 0.3), "ends at time"),
+        (|rows| *rows = vec![rows[0], rows[rows.len() / 2], rows[rows.len() - 1]], "apart after time"),
+    ];
+    for (change, named) in changes {
+        let scored = front(change).unwrap();
+        for check in ["front", "arrival"] {
+            let (outcome, source) = found(&scored, check).remove(0);
+            assert!(outcome == Outcome::NotJudged && source.contains(named), "{check} {outcome:?}: {source}");
+        }
+        assert!(scored.record.metrics["arrival_error"].value.is_none());
+        assert!(gate::gate(false, &[]).refusal(&scored).is_some());
+    }
+}
+
+#[test]
+fn rows_out_of_order_are_refused_with_their_line() {
+    let changes: [fn(&mut Vec<(f64, f64)>); 2] = [|rows| rows.swap(3, 4), |rows| rows[4].0 = rows[3].0];
+    for change in changes {
+        let said = front(change).map(|_| ()).unwrap_err().to_string();
+        assert!(said.contains("series.csv: line 6: time (s) 0.") && said.contains("rows in rising order"), "{said}");
+    }
+}
+
+#[test]
+fn a_column_is_judged_between_rows_at_the_times_of_the_reference_alone() {
+    let lines = |keep: fn(usize) -> bool| {
+        let result = Answer::of_column();
+        let text = result.text("series.csv");
+        let kept = text.lines().enumerate().filter(|(k, _)| *k == 0 || keep(*k));
+        let kept: Vec<&str> = kept.map(|(_, line)| line).collect();
+        fs::write(result.path("series.csv"), kept.join("\n") + "\n").unwrap();
+        result.score().unwrap()
+    };
+    let early = lines(|k| k < 3);
+    assert_eq!(early.record.metrics["settlement_error"].value, None);
+    for (scored, named) in [
+        (early, "ends at time_factor = "),
+        (lines(|k| k > 2), "begins at time_factor = "),
+        (lines(|k| [1, 8].contains(&k)), "2 rows are too few"),
+    ] {
+        for check in ["settlement", "base-pressure"] {
+            let (outcome, source) = found(&scored, check).remove(0);
+            assert!(outcome == Outcome::NotJudged && source.contains(named), "{check} {outcome:?}: {source}");
+        }
+    }
+}
+
+/// The series of a quasi-static run of ours, 16 rows: penetration in 10⁻³ and load.
+const PRESSED: [(f64, f64); 16] = [
+    (0.25, 129.8246),
+    (0.5, 209.1566),
+    (0.75, 237.2537),
+    (1.0, 254.9653),
+    (1.25, 266.9892),
+    (1.5, 275.3610),
+    (1.75, 281.1136),
+    (2.0, 284.1942),
+    (2.25, 284.2168),
+    (2.5, 283.0682),
+    (2.75, 282.8440),
+    (3.0, 283.0420),
+    (3.25, 283.3268),
+    (3.5, 283.6200),
+    (3.75, 283.9842),
+    (4.0, 284.2151),
+];
+
+#[test]
+fn a_footing_is_read_between_rows_where_its_curvature_allows() {
+    let pressed = |rows: &[(f64, f64)], scale: f64| {
+        let (penetration, force): (Vec<f64>, Vec<f64>) = rows.iter().map(|(s, f)| (1e-3 * scale * s, *f)).unzip();
+        let result = with_series("footing", "b10", &[("penetration (-)", penetration), ("footing_force (N/m)", force)]);
+        result.say("basis", json!("gimp"));
+        result.score().unwrap()
+    };
+    let outcomes = |scored: &Scored, check| found(scored, check).into_iter().map(|(o, _)| o).collect::<Vec<_>>();
+    let sound = pressed(&PRESSED, 1.0);
+    assert_eq!(outcomes(&sound, "curve"), [Outcome::Right; 6], "{:?}", found(&sound, "curve"));
+    assert_eq!(outcomes(&sound, "prandtl"), [Outcome::Right]);
+    let between = sound.record.value("nc_0.0003");
+    assert!((between - 2.99).abs() < 0.02, "{between}");
+    // Every other row leaves the beginning of the curve open, and the plateau known.
+    let coarse: Vec<(f64, f64)> = PRESSED.iter().copied().skip(1).step_by(2).collect();
+    let open = found(&pressed(&coarse, 1.0), "curve").remove(0);
+    assert!(open.0 == Outcome::NotJudged && open.1.contains("closer rows show it"), "{open:?}");
+    // Penetration in per cent, and a series that ends at three quarters.
+    for (rows, scale, named) in [(&PRESSED[..], 100.0, "begins at"), (&PRESSED[..12], 1.0, "ends at")] {
+        let scored = pressed(rows, scale);
+        for check in ["prandtl", "limit-load", "fem-plateau"] {
+            let (outcome, source) = found(&scored, check).remove(0);
+            assert!(outcome == Outcome::NotJudged && source.contains(named), "{check} {outcome:?}: {source}");
+        }
+    }
+}
+
+#[test]
+fn an_energy_that_is_bounded_is_judged_of_rows_that_show_it() {
+    let energies = |rows: &[f64]| {
+        let zeros = || vec![0.0; rows.len()];
+        let columns = [
+            ("kinetic_energy (J/m)", zeros()),
+            ("stress_work (J/m)", rows.to_vec()),
+            ("load_work (J/m)", rows.to_vec()),
+            ("damping_losses (J/m)", zeros()),
+        ];
+        found(&with_series("cook", "h2", &columns).score().unwrap(), "no-energy-gain").remove(0).0
+    };
+    assert_eq!(energies(&[0.01, 0.025, 0.04, 0.055, 0.07]), Outcome::Right);
+    assert_eq!(energies(&[0.08]), Outcome::NotJudged);
+    assert_eq!(energies(&[0.01, 0.08]), Outcome::NotJudged);
+    assert_eq!(energies(&[-0.02, -0.04, -0.06, -0.08]), Outcome::Failed);
+}
