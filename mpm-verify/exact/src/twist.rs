@@ -16,7 +16,7 @@ use super::{Exact, Material, sine};
 use crate::Error;
 use crate::parameter::{Parameters, number, parameters};
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Vector3, Vector4};
-use std::f64::consts::TAU;
+use std::f64::consts::PI;
 
 /// The turn by 90° about z.
 const QUARTER: Matrix3<f64> = Matrix3::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0);
@@ -125,7 +125,7 @@ impl Twist {
 }
 
 parameters! { pub const:
-    ANGLE = "angle", "rad", "1", number(0.0, TAU, false), "largest angle α₀";
+    ANGLE = "angle", "rad", "1", number(0.0, PI, false), "largest angle α₀";
 }
 
 /// Where and by which factors of α₀ sin ωt the points of a vortex turn.

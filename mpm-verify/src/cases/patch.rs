@@ -79,6 +79,11 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
+        wanted: vec![Wanted::new(
+            "motion",
+            "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps",
+            &["affine", "filter", "free-fall"],
+        )],
         checks: checks(),
         headlines: vec![
             headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9),

@@ -306,6 +306,8 @@ fn drive(
         }
         let row = match job.advance() {
             Ok(row) => row,
+            // A later phase that refuses its parameters is wrong input, and no breakdown.
+            Err(error @ mpm_core::Error::Input { .. }) => return Err(Error::Input(error.to_string())),
             Err(error) => return Ok(Some(failure(&error))),
         };
         if let Some(journal) = &mut journal {

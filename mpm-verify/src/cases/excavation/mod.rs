@@ -45,7 +45,7 @@ choices! {
 parameters! {
     /// Parameters of the excavation.
     struct Excavation {
-        young_modulus: f64 = common::YOUNG_MODULUS.with_default("2e5");
+        young_modulus: f64 = common::YOUNG_MODULUS.with_default("2e5").within(number(1e3, 1e9, false));
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.33");
         peak: f64 = real("Pa", "5e3", 1.0, 1e9), "peak of the strength c in plane-strain shear; κ = √2 c";
         residual: f64 = real("Pa", "1e3", 1.0, 1e9), "residual strength c, at most the peak; the peak: no softening";

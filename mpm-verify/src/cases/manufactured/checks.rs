@@ -110,6 +110,10 @@ impl Wave {
 
     /// Reason why a scheme is known not to keep the bound, if there is one.
     fn shortcoming(r: &Run<()>, claim: &Claim) -> Option<&'static str> {
+        let nearly_incompressible = r.values.number(POISSON_RATIO) > 0.499;
+        if nearly_incompressible && matches!(r.remedy(), FbarTotal | FbarRate) {
+            return Some(NULL_SPACE);
+        }
         if is_beyond_unseen(r) {
             return Some("what the average can't see is stiff enough to lock: docs/mms-static.md");
         }
