@@ -98,42 +98,42 @@ pub(super) fn broken(summary: &Summary) -> impl Iterator<Item = (&CaseStudy, &Re
     })
 }
 
-/// A value beside its reference.
-pub(super) struct Nearest<'a> {
-    /// Distance from the reference, and what is allowed, with units.
-    pub(super) error: String,
-    pub(super) tolerance: String,
+/// The wanted value of a right run that uses most of its tolerance.
+pub(super) struct Tightest<'a> {
+    /// Distance from the reference and tolerance, or value and bound, with units.
+    pub(super) margin: String,
     pub(super) metric: &'a str,
     pub(super) run: String,
 }
 
-/// The value that comes nearest to its reference, in tolerances, of the first error of a case that a check judges, or
-/// else of its first check; of runs that are right.
-pub(super) fn nearest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Nearest<'a>> {
-    let right = |r: &&Record| outcome_of_run(r) == Outcome::Right;
-    let distance = |v: &Verdict| Some((v.value? - v.reference.unwrap_or(0.0)).abs());
-    let share = |v: &Verdict| {
-        let (distance, tolerance) = (distance(v)?, v.tolerance.filter(|t| *t > 0.0)?);
-        let is_bound_from_below = v.reference.is_none() && v.holds() == Some(distance > tolerance);
-        let shown = v.kind == Kind::Truth && !is_bound_from_below;
-        shown.then_some(distance / tolerance)
+/// Share of its tolerance, or of its bound, that a truth uses.
+fn used(v: &Verdict) -> Option<f64> {
+    let (value, tolerance) = (v.value?, v.tolerance.filter(|t| *t > 0.0)?);
+    match v.reference {
+        Some(reference) => Some((value - reference).abs() / tolerance),
+        None if value > tolerance => Some(tolerance / value),
+        None => Some(value.max(0.0) / tolerance),
+    }
+}
+
+/// The verdict with the tightest margin among those that judge what a case is run for, of runs that are right.
+pub(super) fn tightest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Tightest<'a>> {
+    let wanted = |v: &&Verdict| {
+        let judges = case.wanted.iter().any(|w| w.by.contains(&&*v.check));
+        judges && v.kind == Kind::Truth && v.outcome == Outcome::Right
     };
-    let all = study.records.iter().filter(right);
-    let all = all.flat_map(|r| r.verdicts.iter().filter_map(move |v| Some((r, v, share(v)?))));
-    let judged: Vec<(&Record, &Verdict, f64)> = all.collect();
-    let errors = case.quantities.iter().filter(|q| q.is_error).map(|q| q.metric);
-    let mut metrics = errors.chain(case.metrics.iter().copied());
-    let (run, v, _) = metrics.find_map(|metric| {
-        let own = judged.iter().filter(|(_, v, _)| v.metric == metric.name);
-        own.min_by(|a, b| a.2.total_cmp(&b.2))
-    })?;
+    let right = study.records.iter().filter(|r| outcome_of_run(r) == Outcome::Right);
+    let judged = right.flat_map(|r| r.verdicts.iter().filter(wanted).filter_map(move |v| Some((r, v, used(v)?))));
+    let (run, v, _) = judged.max_by(|a, b| a.2.total_cmp(&b.2))?;
     let unit = case.metrics.iter().find(|m| m.name == v.metric).map_or("-", |m| m.unit);
-    Some(Nearest {
-        error: quantity(distance(v), unit),
-        tolerance: quantity(v.tolerance, unit),
-        metric: &v.metric,
-        run: name(run),
-    })
+    let [value, tolerance] = [v.value, v.tolerance].map(|number| quantity(number, unit));
+    let margin = match v.reference.zip(v.value) {
+        Some((reference, value)) => {
+            format!("{} off, ± {tolerance} allowed", quantity(Some((value - reference).abs()), unit))
+        }
+        None => format!("{value}, bound {tolerance}"),
+    };
+    Some(Tightest { margin, metric: &v.metric, run: name(run) })
 }
 
 #[cfg(test)]
@@ -144,9 +144,9 @@ mod tests {
     use crate::record::fixture::record;
 
     #[test]
-    fn the_nearest_value_is_of_a_run_that_is_right() {
+    fn the_tightest_margin_is_of_a_run_that_is_right() {
         let edge = |distance: f64| {
-            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "").verdict("edge", Kind::Truth)
+            Finding::within("fem_edge_mean_error", 1.0 + distance, 1.0, 0.1, "").verdict("edge-mean", Kind::Truth)
         };
         let wrong = Finding::within("at_rest", 0.0, 1.0, 0.0, "").verdict("at-rest", Kind::Truth);
         let runs = vec![
@@ -155,7 +155,7 @@ mod tests {
             record("h0.5", vec![edge(0.0125), wrong]),
         ];
         let study = CaseStudy::new("cook", runs);
-        let found = nearest(cases::find("cook").unwrap(), &study).unwrap();
-        assert!(found.run.contains("h1") && found.error.contains("0.025"));
+        let found = tightest(cases::find("cook").unwrap(), &study).unwrap();
+        assert!(found.run.contains("h2") && found.margin.contains("0.05"));
     }
 }

@@ -10,7 +10,7 @@ use crate::record::Record;
 use crate::report::document::{Cell, Document, Row, Table, Text};
 use crate::report::faults::{self, Fault};
 use crate::report::price::Prices;
-use crate::report::verdicts::{self, nearest};
+use crate::report::verdicts::{self, tightest};
 use crate::report::words::{OUTCOMES, kind, local_orders, made_by, number, order};
 use crate::spec::Level;
 use crate::study::convergence::Convergence;
@@ -23,9 +23,9 @@ use std::path::Path;
 pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
     let mut page = Document::new(case.title);
     let mut lead = Text::from(sentence(study));
-    if let Some(best) = nearest(case, study) {
+    if let Some(best) = tightest(case, study) {
         lead = lead
-            .then(format!(" Best error: {} where {} is allowed (", best.error, best.tolerance))
+            .then(format!(" Tightest margin of a wanted quantity: {} (", best.margin))
             .then(Text::code(best.metric))
             .then(format!(", {}).", best.run));
     }

@@ -10,7 +10,7 @@ use crate::report::advice::advice;
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text};
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
-use crate::report::verdicts::{self, nearest};
+use crate::report::verdicts::{self, tightest};
 use crate::report::{map, words::OUTCOMES};
 use crate::study::judge::outcome_of_run;
 use crate::study::summary::{CaseStudy, Summary};
@@ -132,7 +132,7 @@ fn price(page: &mut Document, summary: &Summary, speed: &Speed, picture: Option<
     ));
 }
 
-/// The cases: how their runs came out, their best errors, what they cost.
+/// The cases: how their runs came out, their tightest margins, what they cost.
 fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
     let row = |study: &CaseStudy| -> Result<Row, Error> {
         let case = cases::find(&study.case)?;
@@ -143,11 +143,11 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
             let still = if p.still.is_empty() { p.file } else { p.still };
             Text::thumb(p.caption, still)
         });
-        let best = nearest(case, study).map_or_else(
+        let best = tightest(case, study).map_or_else(
             || Text::from("–"),
             |b| {
                 let of = Text::mark(format!("{}, {}", b.metric, b.run), "note");
-                Text::from(format!("{} of {}", b.error, b.tolerance)).then_below(of)
+                Text::from(b.margin).then_below(of)
             },
         );
         let together = study.verdicts.iter().filter(|v| v.failed()).count();
@@ -165,7 +165,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         let first = [Cell::head(name), thumb.unwrap_or_default().into(), best.into()];
         Ok(first.into_iter().chain(numbers.map(|n| Cell::of(n, "num"))).into())
     };
-    let head = ["case", "", "best of the runs that are right: error, tolerance"].map(Cell::from);
+    let head = ["case", "", "tightest margin of a wanted quantity among right runs"].map(Cell::from);
     let numbers = ["right", "wrong as known", "not judged", "FAILED", "10⁹ pairs", "CPU (s)"];
     let numbers = numbers.map(|title| Cell::of(title, "num"));
     Ok(Table {
