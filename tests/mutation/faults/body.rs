@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const BODY: [Fault; 18] = [
+pub(crate) const BODY: [Fault; 19] = [
     Fault {
         name: "Jaumann's stress turns by half of the rotation",
         file: "material/hypoelastic.rs",
@@ -129,5 +129,12 @@ pub(crate) const BODY: [Fault; 18] = [
         sound: "permute(&mut self.mass, order)",
         broken: "{ permute(&mut self.mass, order); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
         seen_by: &[(DAM, "mass")],
+    },
+    Fault {
+        name: "a term of the pressure of a solid whose pores close is a fiftieth too small",
+        file: "material/improved_hencky.rs",
+        sound: "number(1.0) - half * ratio",
+        broken: "number(1.0) - number(0.49) * ratio",
+        seen_by: &[(SOAKED, "order-space")],
     },
 ];

@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const IMPLICIT: [Fault; 25] = [
+pub(crate) const IMPLICIT: [Fault; 26] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -178,5 +178,12 @@ pub(crate) const IMPLICIT: [Fault; 25] = [
         sound: "Dual::variable(f[(i, j)], D * i + j)",
         broken: "Dual::<N>::variable(f64::from(u8::from(i == j)), D * i + j)",
         seen_by: &[(BEAM, "newton")],
+    },
+    Fault {
+        name: "Kozeny and Carman's power of the porosity is a hundredth too large",
+        file: "poro/water.rs",
+        sound: "T::splat(c) * n * n * n",
+        broken: "T::splat(c) * n * n * n * (T::splat(0.03) * (n / T::splat(0.4)).ln()).exp()",
+        seen_by: &[(SOAKED, "order-space")],
     },
 ];
