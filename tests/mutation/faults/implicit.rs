@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const IMPLICIT: [Fault; 26] = [
+pub(crate) const IMPLICIT: [Fault; 27] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -178,6 +178,13 @@ pub(crate) const IMPLICIT: [Fault; 26] = [
         sound: "Dual::variable(f[(i, j)], D * i + j)",
         broken: "Dual::<N>::variable(f64::from(u8::from(i == j)), D * i + j)",
         seen_by: &[(BEAM, "newton")],
+    },
+    Fault {
+        name: "the tangent is a hundredth too soft",
+        file: "implicit/response.rs",
+        sound: "answer.stress[place] + Dual::splat(share) * cofactor",
+        broken: "(answer.stress[place] + Dual::splat(share) * cofactor) * Dual::splat(0.99)",
+        seen_by: &[(BEAM, "quadratic")],
     },
     Fault {
         name: "Kozeny and Carman's power of the porosity is a hundredth too large",
