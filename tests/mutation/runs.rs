@@ -117,3 +117,6 @@ pub(crate) const BENT_MEMBRANE: Runs = &[
 /// A slow vortex over the cells, and over Poisson's ratios.
 pub(crate) const SLOW: Runs = &["mms-static --level n8", "mms-static --level n16", "mms-static --level n32"];
 pub(crate) const SLOW_RATIOS: Runs = &["mms-static --level n8", "mms-static --level n8 --set poisson_ratio=0.3"];
+/// A column that stands, and yields where it is pressed most.
+pub(crate) const YIELDING: Runs =
+    &["newton --scheme quasi-static-gimp-none --level n8 --set support=stands --set yield_strain=0.05"];

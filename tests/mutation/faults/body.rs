@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const BODY: [Fault; 19] = [
+pub(crate) const BODY: [Fault; 20] = [
     Fault {
         name: "Jaumann's stress turns by half of the rotation",
         file: "material/hypoelastic.rs",
@@ -129,6 +129,13 @@ pub(crate) const BODY: [Fault; 19] = [
         sound: "permute(&mut self.mass, order)",
         broken: "{ permute(&mut self.mass, order); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
         seen_by: &[(DAM, "mass")],
+    },
+    Fault {
+        name: "the strength sees no stress across the plane",
+        file: "material/hencky_j2.rs",
+        sound: "direction.norm()",
+        broken: "(direction.norm() * direction.norm() - direction.zz * direction.zz).sqrt()",
+        seen_by: &[(YIELDING, "flow")],
     },
     Fault {
         name: "a term of the pressure of a solid whose pores close is a fiftieth too small",

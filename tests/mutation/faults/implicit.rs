@@ -184,7 +184,7 @@ pub(crate) const IMPLICIT: [Fault; 27] = [
         file: "implicit/response.rs",
         sound: "answer.stress[place] + Dual::splat(share) * cofactor",
         broken: "(answer.stress[place] + Dual::splat(share) * cofactor) * Dual::splat(0.99)",
-        seen_by: &[(BEAM, "quadratic")],
+        seen_by: &[(BEAM, "quadratic"), (YIELDING, "quadratic")],
     },
     Fault {
         name: "Kozeny and Carman's power of the porosity is a hundredth too large",
