@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const BODY: [Fault; 20] = [
+pub(crate) const BODY: [Fault; 21] = [
     Fault {
         name: "Jaumann's stress turns by half of the rotation",
         file: "material/hypoelastic.rs",
@@ -136,6 +136,13 @@ pub(crate) const BODY: [Fault; 20] = [
         sound: "direction.norm()",
         broken: "(direction.norm() * direction.norm() - direction.zz * direction.zz).sqrt()",
         seen_by: &[(YIELDING, "flow")],
+    },
+    Fault {
+        name: "flow ends at the strength of the step's start",
+        file: "material/strength.rs",
+        sound: "self.at(plastic_strain + per_flow * flow)",
+        broken: "self.at(plastic_strain)",
+        seen_by: &[(CUT, "yield")],
     },
     Fault {
         name: "a term of the pressure of a solid whose pores close is a fiftieth too small",
