@@ -128,3 +128,7 @@ pub(crate) const FALLING: Runs = &["patch --scheme newmark-gimp-none --set strai
 
 /// A bar whose energy Newmark's rule is known to take.
 pub(crate) const NEWMARK: Runs = &["vibrating-bar --scheme newmark-linear-none --level n16 --set cfl=4"];
+
+/// A column that stands, and yields where it is pressed most.
+pub(crate) const YIELDING: Runs =
+    &["newton --scheme quasi-static-gimp-none --level n8 --set support=stands --set yield_strain=0.05"];

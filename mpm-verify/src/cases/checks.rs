@@ -2,13 +2,37 @@
 
 use crate::accuracy::fit_order;
 use crate::metric::Metric;
+use crate::parameter::ParameterSet;
 use crate::prelude::*;
+use mpm_core::monitor::Convergence;
 use std::collections::BTreeMap;
 
 /// Levels or steps that decide an order.
 pub(super) const DECIDING: usize = 3;
 /// Roache's factors of safety, of three levels that show the order, and of those that do not (doi:10.1115/1.2910291).
 pub(super) const SAFE: [f64; 2] = [1.25, 3.0];
+
+/// Largest contraction from which on Newton's method is near a solution.
+const NEAR: f64 = 0.1;
+
+/// Least contraction of the residual in an iteration near the solution of a step, over √(τ/r) of the residual r that such
+/// iterations begin from and the τ that ends them, `tolerance` or what rounding leaves; nothing of a step without any.
+pub(super) fn newton_rate(of: &Convergence, tolerance: f64) -> Option<f64> {
+    let contractions: Vec<f64> = of.residuals.windows(2).map(|r| r[1] / r[0]).collect();
+    let begin = contractions.iter().position(|c| *c < NEAR)?;
+    let least = contractions[begin..].iter().copied().fold(NEAR, f64::min);
+    Some(least * (of.residuals[begin] / tolerance.max(of.force_rounding)).sqrt())
+}
+
+/// The check of the largest such rate of a run's steps, whose body is stiffer in one motion than in another by `ratio`.
+pub(super) fn quadratic<P: ParameterSet>(
+    largest: Metric,
+    ratio: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+) -> CheckOf<P> {
+    CheckOf::truth("quadratic", "Newton's method, near the solution of every step: some iteration contracts the residual as contractions that are squared have to, by √(sτ/r) at least, s the ratio of stiffnesses by which their constant grows; at a linear rate none does")
+        .when(move |r: &Run<P>| r.metric(largest).is_finite())
+        .at_most(largest, move |r| ratio(r).sqrt())
+}
 
 /// The last [`DECIDING`] of some runs, coarsest first; nothing of fewer.
 pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {

@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const BODY: [Fault; 18] = [
+pub(crate) const BODY: [Fault; 21] = [
     Fault {
         name: "Jaumann's stress turns by half of the rotation",
         file: "material/hypoelastic.rs",
@@ -129,5 +129,26 @@ pub(crate) const BODY: [Fault; 18] = [
         sound: "permute(&mut self.mass, order)",
         broken: "{ permute(&mut self.mass, order); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
         seen_by: &[(DAM, "mass")],
+    },
+    Fault {
+        name: "the strength sees no stress across the plane",
+        file: "material/hencky_j2.rs",
+        sound: "direction.norm()",
+        broken: "(direction.norm() * direction.norm() - direction.zz * direction.zz).sqrt()",
+        seen_by: &[(YIELDING, "flow")],
+    },
+    Fault {
+        name: "flow ends at the strength of the step's start",
+        file: "material/strength.rs",
+        sound: "self.at(plastic_strain + per_flow * flow)",
+        broken: "self.at(plastic_strain)",
+        seen_by: &[(CUT, "yield")],
+    },
+    Fault {
+        name: "a term of the pressure of a solid whose pores close is a fiftieth too small",
+        file: "material/improved_hencky.rs",
+        sound: "number(1.0) - half * ratio",
+        broken: "number(1.0) - number(0.49) * ratio",
+        seen_by: &[(SOAKED, "order-space")],
     },
 ];

@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const IMPLICIT: [Fault; 28] = [
+pub(crate) const IMPLICIT: [Fault; 30] = [
     Fault {
         name: "a particle in equilibrium has a fiftieth more volume",
         file: "implicit/equilibrium.rs",
@@ -199,5 +199,19 @@ pub(crate) const IMPLICIT: [Fault; 28] = [
         sound: "elements.value(p, &acceleration).into()",
         broken: "[0.0; D]",
         seen_by: &[(FALLING, "free-fall")],
+    },
+    Fault {
+        name: "the tangent is a hundredth too soft",
+        file: "implicit/response.rs",
+        sound: "answer.stress[place] + Dual::splat(share) * cofactor",
+        broken: "(answer.stress[place] + Dual::splat(share) * cofactor) * Dual::splat(0.99)",
+        seen_by: &[(BEAM, "quadratic"), (YIELDING, "quadratic")],
+    },
+    Fault {
+        name: "Kozeny and Carman's power of the porosity is a hundredth too large",
+        file: "poro/water.rs",
+        sound: "T::splat(c) * n * n * n",
+        broken: "T::splat(c) * n * n * n * (T::splat(0.03) * (n / T::splat(0.4)).ln()).exp()",
+        seen_by: &[(SOAKED, "order-space")],
     },
 ];

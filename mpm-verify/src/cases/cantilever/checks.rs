@@ -2,6 +2,7 @@
 
 use super::reference::{Solution, Stresses, stresses};
 use super::*;
+use crate::cases::checks::quadratic;
 
 /// Largest relative error of the corner's u_y with quadratic splines, by level: the discretisation error that has been
 /// asked for, half of it from one level to the next.
@@ -18,6 +19,12 @@ impl Beam<'_> {
     /// Residual of a converged step over the loads.
     fn residual(&self) -> f64 {
         self.tolerance.max(self.metric(FORCE_ROUNDING))
+    }
+
+    /// Stiffness along the beam, EA/L, over that of its tip, 3EI/L³, times M/2G.
+    fn stiffnesses(&self) -> f64 {
+        let volume = (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio);
+        4.0 * (run::LENGTH / run::DEPTH).powi(2) * volume
     }
 
     fn is_unstable(&self) -> bool {
@@ -79,6 +86,9 @@ pub(super) fn checks() -> Vec<Check> {
             .unless(|b| (b.poisson_ratio > 0.49).then(|| "nearly incompressible: steps start outside of quadratic convergence".to_owned()))
             .at_most(NEWTON_ITERATIONS, |b| 7.0 * f64::from(b.load_steps))
             .because("quadratic convergence with the exact tangent"),
+        quadratic(NEWTON_RATE, |b: &Beam| b.stiffnesses())
+            .when(|b| !b.is_unstable())
+            .because("the exact tangent, and how much stiffer a beam is along itself and to a change of volume: docs/newton.md"),
         Check::truth("corner", "u_y of the corner within 0.6, 0.25, 0.1, 0.05 % of the finite elements at h = 0.1, 0.05, 0.025, 0.0125 m")
             .unless(|b| b.solution().err())
             .unless(|b| b.asked().is_some_and(|asked| b.tolerance > 0.1 * asked).then(|| "Newton's tolerance hides the error".to_owned()))

@@ -74,6 +74,8 @@ metrics! { OWN:
     STRESS_ERROR = "stress_error", "-",
         "rms distance of σ_xx from the reference at six points near the clamp, over the rms of the reference";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
+    NEWTON_RATE = "newton_rate", "-",
+        "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
     CUTS = "cut_steps", "-", "load steps that were taken in parts";
     LOG10_CONDITION = "log10_condition", "-",
         "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";

@@ -2,6 +2,7 @@
 
 use super::edge::{Edge, extremes};
 use super::*;
+use crate::cases::checks::newton_rate;
 use crate::cases::parameters::require_quotient;
 use mpm_core::implicit::{Settings, Stabilisation};
 use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
@@ -114,6 +115,7 @@ pub(super) struct Steps {
     force_ratio: f64,
     force_rounding: f64,
     energy_ratio: f64,
+    rate: Option<f64>,
 }
 
 /// Displacement (m) along an axis, in seeding order.
@@ -158,6 +160,7 @@ impl Problem<2> for Bending {
         seen.force_ratio = seen.force_ratio.max(convergence.force_ratio);
         seen.force_rounding = seen.force_rounding.max(convergence.force_rounding);
         seen.energy_ratio = seen.energy_ratio.max(convergence.energy_ratio);
+        seen.rate = newton_rate(&convergence, self.setup.tolerance).into_iter().chain(seen.rate).reduce(f64::max);
         let last = |k: usize| convergence.residuals.iter().rev().nth(k).copied().unwrap_or(0.0);
         let [[corner_x, mean_x], [corner_y, mean_y]] = [0, 1].map(|axis| self.edge.tip(&displacement(run, axis)));
         let [least, greatest] = extremes(&stress_xx(run));
@@ -219,6 +222,7 @@ impl Problem<2> for Bending {
             (REACTION_ERROR, reaction.max(tolerance)),
             (MASS, run.totals().mass),
         ]);
+        values.extend(seen.rate.map(|rate| (NEWTON_RATE, rate)));
         values
     }
 }

@@ -104,6 +104,8 @@ metrics! { ALL:
         "largest change of a stress from one phase to the next, of what stays, over γH: none";
     FLOW_LEAST = "flow_least", "-",
         "least change of a particle's plastic strain from row to row: none is negative";
+    YIELD_EXCESS = "yield_excess", "-",
+        "hencky-j2: largest ‖J dev σ‖ of a particle over the strength √2 c that its plastic strain leaves it, less one, of all rows";
     MOVED_CUT = "moved_cut", "m", "largest displacement of a particle since the last phase began";
     RUNOUT_END = "runout_end", "m",
         "distance of the farthest particle's edge, at the end, from the foot of the cut face";
@@ -274,6 +276,10 @@ fn checks() -> Vec<Check> {
         Check::truth("flow", "plastic strain of every particle never falls")
             .above(FLOW_LEAST, |_| -f64::EPSILON)
             .because("flow dissipates"),
+        Check::truth("yield", "hencky-j2: no particle bears more than the strength that its own plastic strain leaves, to rounding")
+            .when(|c| !c.metric(YIELD_EXCESS).is_nan())
+            .at_most(YIELD_EXCESS, |_| ROUNDING)
+            .because("von Mises at the end of the step: what flow does there is what the strength dissipates"),
         Check::truth("coulomb", "base=friction: friction of the base at most μ times its pressure")
             .when(|c| c.slides())
             .at_most(FRICTION_RATIO, |c| c.friction * (1.0 + ROUNDING))

@@ -5,6 +5,7 @@ use super::*;
 use crate::cases::observe::{farthest, finds_equilibrium, places};
 use mpm_core::monitor::Convergence;
 use mpm_core::{Part, Reaction};
+use std::f64::consts::SQRT_2;
 
 /// A particle that moves by this share of the height has left with what collapses.
 const COLLAPSES: f64 = 0.1;
@@ -34,6 +35,17 @@ impl Setup<Excavation> {
         let strain = run.field(Field::PlasticStrain);
         let pairs = strain.iter().zip(&run.particles().volume);
         pairs.filter(|(e, _)| **e >= end).map(|(_, v)| v).sum()
+    }
+
+    /// Largest ‖J dev σ‖ of a particle over its strength, less one.
+    fn yield_excess(&self, run: &dyn Simulation<2>, strain: &[f64]) -> f64 {
+        let p = run.particles();
+        let volume = if p.j_bar.is_empty() { &p.jacobian } else { &p.j_bar };
+        let excess = (0..p.len()).map(|k| {
+            let strength = SQRT_2 * (self.peak - self.softening * strain[k]).max(self.residual);
+            volume[k] * p.stress[k].deviator().norm() / strength - 1.0
+        });
+        excess.fold(-1.0, f64::max)
     }
 
     /// Whether the ground stands at the end of a stage, if that is known: where it moves, a short time may not suffice.
@@ -120,6 +132,7 @@ pub(super) struct Seen {
     uncut: Option<Uncut>,
     friction_ratio: f64,
     flow_least: f64,
+    yield_excess: Option<f64>,
     motion: Motion,
     handed_over: Option<f64>,
 }
@@ -266,6 +279,8 @@ impl Problem<2> for Ground {
         let changes = flowed.iter().zip(&seen.flowed).map(|(a, b)| a - b);
         seen.flow_least = changes.fold(seen.flow_least, f64::min);
         seen.flowed = flowed;
+        let excess = self.setup.yield_excess(run, &strain);
+        seen.yield_excess = Some(seen.yield_excess.map_or(excess, |most| most.max(excess)));
         let moved = farthest(&seen.start, &places(run));
         let base = self.setup.reaction(run).force;
         if self.setup.slides() && base[1] < 0.0 {
@@ -368,6 +383,9 @@ impl Problem<2> for Ground {
         if softened > 0.0 {
             values.extend([(SOFTENED_END, softened), (BAND_WIDTH, softened / length)]);
         }
+        // Ground that was never loaded says nothing.
+        let loaded = seen.yield_excess.filter(|most| self.setup.law == LawName::Hencky && *most > -1.0);
+        values.extend(loaded.map(|most| (YIELD_EXCESS, most)));
         values.extend(seen.handed_over.map(|change| (HANDED_OVER, change)));
         if self.setup.slides() {
             values.push((FRICTION_RATIO, seen.friction_ratio));

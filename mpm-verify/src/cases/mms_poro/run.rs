@@ -39,25 +39,35 @@ impl Setup<Motion> {
         self.basis() == Linear && self.steps > 1
     }
 
-    /// The exact motion.
-    fn solution(&self) -> Result<SolidAndWater, mpm_core::Error> {
+    /// Bulk parameter of the law (Pa).
+    fn bulk_parameter(&self) -> f64 {
+        self.porosity * self.young_modulus / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
+    }
+
+    /// The solver's law and conductivity.
+    fn own(&self) -> Result<(ImprovedHencky, Conductivity), mpm_core::Error> {
         let (porosity, kappa) = (self.porosity, self.kappa());
-        let bulk = self.young_modulus / (3.0 * (1.0 - 2.0 * self.poisson_ratio));
         let conductivity = match self.conductivity_law {
             Law::Constant => Conductivity::Constant(kappa),
             Law::KozenyCarman => Conductivity::KozenyCarman(kappa * (1.0 - porosity).powi(2) / porosity.powi(3)),
         };
-        Ok(SolidAndWater {
+        Ok((ImprovedHencky::new(self.bulk_parameter(), self.shear(), porosity)?, conductivity))
+    }
+
+    /// The exact motion, with a law and a conductivity of its own.
+    fn solution(&self) -> SolidAndWater {
+        SolidAndWater {
             dimension: self.dimension as usize,
-            law: ImprovedHencky::new(bulk * porosity, self.shear(), porosity)?,
-            porosity,
-            conductivity,
+            moduli: [self.bulk_parameter(), self.shear()],
+            porosity: self.porosity,
+            kappa: self.kappa(),
+            kozeny_carman: self.conductivity_law == Law::KozenyCarman,
             densities: DENSITIES,
             gravity: self.gravity,
             amplitude: self.amplitude,
             pressure: self.pressure,
             angular_frequency: self.angular_frequency,
-        })
+        }
     }
 }
 
@@ -119,8 +129,8 @@ where
     type Seen = ();
 
     fn new(setup: Setup<Motion>) -> Result<Self, Error> {
-        let solution = setup.solution()?;
-        Ok(Self { setup, solution })
+        setup.own()?;
+        Ok(Self { solution: setup.solution(), setup })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -130,6 +140,7 @@ where
 
     fn begin(&self, (): &()) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         let (m, exact, h) = (&self.setup, self.solution, self.setup.h);
+        let (law, conductivity) = m.own()?;
         let grid = Grid::new(h, [Axis::walls(0.0, (1.0 / h).round() as usize); D])?;
         let spacing = h / m.ppc_per_direction as f64;
         let along = (1.0 / spacing).round() as usize;
@@ -142,12 +153,12 @@ where
             let force = exact.at(place(x), t).body_force;
             from_fn(|a| force[a])
         }));
-        let scene = Scene::new(grid, Body::new(exact.law, particles)?).load(force).constrain_all(rollers);
+        let scene = Scene::new(grid, Body::new(law, particles)?).load(force).constrain_all(rollers);
         let whole = m.source == Source::Steps;
         let [water, grains] = DENSITIES;
         let mut acceleration = [0.0; D];
         acceleration[D - 1] = -exact.gravity;
-        let water = Water::new(exact.porosity, exact.conductivity)
+        let water = Water::new(exact.porosity, conductivity)
             .gravity(Gravity { water, grains, acceleration })
             .start(move |x| exact.at(place(x), 0.0).pressure)
             .drained(move |x| x[D - 1] > 1.0 - 0.25 * h)

@@ -6,6 +6,7 @@
 mod exact;
 mod run;
 
+use super::checks::quadratic;
 use super::family::{implicit, levels};
 use super::parameters as common;
 use crate::prelude::*;
@@ -33,6 +34,8 @@ parameters! {
         gap: f64 = real("-", "0.9", 0.01, 3.0),
             "standing: gap of the lowest particles at the start over the distance at which the barrier begins";
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
+        yield_strain: f64 = real("-", "0", 0.0, 1.0),
+            "standing: logarithmic strain of uniaxial strain at which the column yields by J2, without hardening; 0: never";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
     }
 }
@@ -47,6 +50,10 @@ metrics! { ALL:
         "force on the floor, or on what holds the upper end, over the weight that is carried, less one";
     GAP_ERROR = "gap_error", "-",
         "standing: mean gap of the lowest particles less the exact one, over the distance at which the barrier begins";
+    FLOW_ERROR = "flow_error", "-",
+        "yielding, more than a cell deeper than the exact column yields: largest error of J (σ_xx − σ_yy) and J (σ_zz − σ_yy), over what flow leaves of them";
+    NEWTON_RATE = "newton_rate", "-",
+        "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps that were taken";
     PARTS = "parts", "-", "most parts that a load step was cut into";
 }
@@ -57,7 +64,8 @@ pub(super) fn case() -> Case {
         description: "A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
                       load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.",
         references: vec![
-            "Exact: uniaxial strain of a Hencky body under its own weight, src/cases/newton/exact.rs.".to_owned(),
+            "Exact: uniaxial strain of a Hencky body under its own weight, elastic or yielding, src/cases/newton/exact.rs."
+                .to_owned(),
         ],
         limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
         plan: plan(&levels),
@@ -112,6 +120,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Quick, "n8", &all[..1], "")
         .runs(Pr, "n8", &all, "")
         .each(Pr, "n8", &all, sure)
+        .runs(Pr, "n8", &all[..1], "support=stands yield_strain=0.05")
         .each(Pr, "n8", &splines, [cut[0], cut[2], cut[5]])
         .each(Nightly, "n8 n16", &all, cut)
         .each(Nightly, "n8", &all, small)
@@ -172,6 +181,14 @@ fn checks() -> Vec<Check> {
             .within(GAP_ERROR, |_| 0.0, |_| CONVERGED)
             .of_scale(|_| 1.0)
             .because("every column of particles is alike, and the barrier's force has one gap"),
+        Check::truth("flow", "standing, yielding: where the exact column flows, vertical and both lateral stresses differ by √(3/2) κ, to what Newton's method leaves")
+            .when(|c| c.has(FLOW_ERROR))
+            .within(FLOW_ERROR, |_| 0.0, |_| CONVERGED)
+            .of_scale(|_| 1.0)
+            .because("uniaxial strain: the deviator's direction is fixed, and its norm, of all three components, is κ"),
+        quadratic(NEWTON_RATE, |_| 1.0)
+            .when(|c: &Run<Newton>| c.is_whole() && c.remedy() == RemedyName::None)
+            .because("the exact tangent, of one kind of motion: docs/newton.md"),
         Check::known_limit("moved-quadrature", "linear functions, hanging, more than one part: equilibrium of the moved particles, off by more than three times the bound of never-wrong")
             .when(|c| !c.stands() && !c.is_whole() && c.basis() == Linear && c.has(EQUILIBRIUM_ERROR))
             .above(EQUILIBRIUM_ERROR, |c| MOVED * c.metric(BOUND))

@@ -1,13 +1,15 @@
 //! Scene and observations of the column, step by step; the time is the share of the load.
 
-use super::exact::Column as Exact;
+use super::exact::{Body as Uniaxial, Column as Exact};
 use super::*;
+use crate::cases::checks::newton_rate;
 use crate::cases::observe::finds_equilibrium;
 use crate::statistics::rms;
 use mpm_core::contact::{Barrier, RigidContact, RigidFace};
-use mpm_core::material::Hencky;
+use mpm_core::material::{Hencky, HenckyJ2, Strength};
 use mpm_core::stage::Gravity;
 use mpm_core::{Error as Fault, Law, Part, implicit};
+use mpm_solvers::Solved;
 use std::f64::consts::E;
 
 /// Height of the column (m), and cells across it.
@@ -27,6 +29,7 @@ const CARRIES: f64 = 0.5;
 pub(super) struct Found {
     stopped: bool,
     parts: u32,
+    rate: Option<f64>,
 }
 
 impl Setup<Newton> {
@@ -49,10 +52,44 @@ impl Loaded {
         self.setup.h / self.setup.ppc_per_direction as f64
     }
 
+    fn settings(&self) -> implicit::Settings {
+        implicit::Settings::new(1.0 / f64::from(self.setup.load_steps))
+    }
+
+    /// Shear modulus G (Pa).
+    fn shear(&self) -> f64 {
+        0.5 * YOUNG_MODULUS / (1.0 + self.setup.poisson_ratio)
+    }
+
+    /// The body in uniaxial strain.
+    fn uniaxial(&self) -> Uniaxial {
+        let yields = self.setup.yield_strain;
+        Uniaxial {
+            yields: if yields > 0.0 { yields } else { f64::INFINITY },
+            bulk: 1.0 - 4.0 / 3.0 * self.shear() / self.modulus,
+        }
+    }
+
+    /// Largest error of the differences of J σ_yy from J σ_xx and J σ_zz where the exact column flows, over 2G times the
+    /// strain of yield: √(3/2) κ. Above is a cell, of whose strains particles have means; nothing if none flows.
+    fn flow_error(&self, run: &dyn Simulation<2>, share: f64) -> Option<f64> {
+        let yields = self.setup.yield_strain;
+        let left = 2.0 * self.shear() * yields;
+        let depth = HEIGHT * yields * yields.exp() * self.modulus / (share * self.weight) + self.setup.h;
+        let p = run.particles();
+        let volume = if p.j_bar.is_empty() { &p.jacobian } else { &p.j_bar };
+        let flows = (0..p.len()).filter(|k| HEIGHT - p.reference[*k][1] > depth);
+        let errors = flows.flat_map(|k| {
+            let (s, j) = (&p.stress[k], volume[k]);
+            [s.xx, s.zz].map(|lateral| (j * (lateral - s.yy) / left - 1.0).abs())
+        });
+        errors.reduce(f64::max)
+    }
+
     /// The exact column at a share of the load, if there is one.
     fn exact(&self, share: f64) -> Option<Exact> {
         let sign = if self.setup.stands() { -1.0 } else { 1.0 };
-        Exact::new(sign * share * self.weight / self.modulus)
+        Exact::new(self.uniaxial(), sign * share * self.weight / self.modulus)
     }
 
     /// The barrier that carries the weight of a column of particles at a part of its distance.
@@ -96,25 +133,9 @@ impl Loaded {
             if self.setup.stands() { moved.iter().map(|[u, exact]| u - exact).sum::<f64>() / count } else { 0.0 };
         Some(rms(moved.iter().map(|[u, exact]| (u - exact - shift) / HEIGHT)))
     }
-}
 
-impl Problem<2> for Loaded {
-    type Parameters = Newton;
-    type Seen = Found;
-
-    fn new(setup: Setup<Newton>) -> Result<Self, Error> {
-        let law = Hencky::new(YOUNG_MODULUS, setup.poisson_ratio)?;
-        let modulus = DENSITY * law.wave_speed(DENSITY).powi(2);
-        let weight = setup.load * modulus / E;
-        Ok(Self { setup, law, modulus, weight })
-    }
-
-    fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(2);
-        self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
-    }
-
-    fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {
+    /// The column of a law at its start.
+    fn simulation<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, Fault> {
         let (h, spacing) = (self.setup.h, self.spacing());
         let cells = (HEIGHT / h).round() as usize;
         let upward = if self.setup.stands() {
@@ -130,7 +151,7 @@ impl Problem<2> for Loaded {
         let particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let gravity = self.weight / (DENSITY * HEIGHT);
         let roller = |axis, end| Wall { axis, end, kind: WallKind::Roller };
-        let mut scene = Scene::new(grid, Body::new(self.law, particles)?)
+        let mut scene = Scene::new(grid, Body::new(law, particles)?)
             .load(Gravity(Box::new(move |share| [0.0, -share * gravity])))
             .constrain(roller(0, End::Lo))
             .constrain(roller(0, End::Hi));
@@ -140,8 +161,37 @@ impl Problem<2> for Loaded {
         } else {
             scene = scene.constrain(roller(1, End::Hi));
         }
-        let settings = implicit::Settings::new(1.0 / f64::from(self.setup.load_steps));
-        mpm_solvers::implicit(self.setup.scheme, scene, settings)
+        mpm_solvers::implicit(self.setup.scheme, scene, self.settings())
+    }
+}
+
+impl Problem<2> for Loaded {
+    type Parameters = Newton;
+    type Seen = Found;
+
+    fn new(setup: Setup<Newton>) -> Result<Self, Error> {
+        if !setup.stands() {
+            setup.forbid(&["yield_strain"])?;
+        }
+        let law = Hencky::new(YOUNG_MODULUS, setup.poisson_ratio)?;
+        let modulus = DENSITY * law.wave_speed(DENSITY).powi(2);
+        let weight = setup.load * modulus / E;
+        Ok(Self { setup, law, modulus, weight })
+    }
+
+    fn discretisation(&self) -> Discretisation {
+        let ppc = self.setup.ppc_per_direction.pow(2);
+        self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+    }
+
+    fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {
+        let yields = self.setup.yield_strain;
+        if yields == 0.0 {
+            return self.simulation(self.law);
+        }
+        // The deviator of uniaxial strain v has the norm √(2/3) v.
+        let strength = Strength::perfect((2.0 / 3.0_f64).sqrt() * 2.0 * self.shear() * yields)?;
+        self.simulation(HenckyJ2::new(YOUNG_MODULUS, self.setup.poisson_ratio, strength)?)
     }
 
     fn row(&self, seen: &mut Found, phase: &mut Phase<2>) -> Result<Row, Fault> {
@@ -151,6 +201,8 @@ impl Problem<2> for Loaded {
         let run = phase.run.as_ref();
         let parts = run.convergence().map_or(0, |c| c.parts);
         seen.parts = seen.parts.max(parts);
+        let rate = run.convergence().and_then(|of| newton_rate(of, self.settings().tolerance));
+        seen.rate = rate.into_iter().chain(seen.rate).reduce(f64::max);
         // A step that was not taken is a row of its end.
         let step = 1.0 / f64::from(self.setup.load_steps);
         let ahead = if seen.stopped { step } else { 0.0 };
@@ -195,6 +247,10 @@ impl Problem<2> for Loaded {
             let weight = carried * self.weight * area;
             let force = run.on(held).force[1].abs();
             values.push((REACTION_ERROR, force / weight - 1.0));
+            values.extend(seen.rate.map(|rate| (NEWTON_RATE, rate)));
+            if self.setup.yield_strain > 0.0 {
+                values.extend(self.flow_error(run, carried).map(|error| (FLOW_ERROR, error)));
+            }
             if self.setup.stands()
                 && let Ok([mean, exact]) = self.gaps(run, carried)
             {
