@@ -3,9 +3,11 @@
 use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
-use crate::parameter::Parameters;
+use crate::parameter::{ParameterSet, Parameters};
 use crate::record::Discretisation;
+use crate::sampled::Between;
 use crate::scheme::{BasisName, Scheme};
+use crate::setup::Setup;
 use crate::spec::RunSpec;
 use crate::table::Table;
 use std::path::{Path, PathBuf};
@@ -71,6 +73,10 @@ impl Asked {
     }
 }
 
+/// Where a particle of a plane starts.
+pub(crate) const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
+pub(crate) const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
+
 /// Letters and digits of a head.
 fn letters(head: &str) -> String {
     head.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
@@ -84,19 +90,33 @@ pub type Measured = Result<Vec<(Metric, f64)>, Error>;
 pub enum Gap {
     /// They do not show it, and why.
     Unknown(String),
-    /// It is taken between them, with an error of at most this.
+    /// It is off by at most this for what lies between them.
     Error(f64),
+    /// It is this value between them, off by at most an error.
+    Between(Between),
 }
 
 impl Gap {
+    /// The value of a metric that was measured from the rows alone as `own`.
+    #[must_use]
+    pub fn value(&self, own: Option<f64>) -> Option<f64> {
+        match self {
+            Self::Unknown(_) => None,
+            Self::Error(_) => own,
+            Self::Between(between) => own.map(|_| between.value),
+        }
+    }
+
     /// Why a verdict can't be given, if it can't.
     #[must_use]
     pub fn refusal(&self, tolerance: Option<f64>) -> Option<String> {
         match (self, tolerance) {
             (Self::Unknown(why), _) => Some(why.clone()),
-            (Self::Error(error), Some(allowed)) if !(*error <= allowed) => Some(format!(
-                "taken between rows with an error of up to {error:.2e}, where {allowed:.2e} is allowed: closer rows show it"
-            )),
+            (Self::Error(error) | Self::Between(Between { error, .. }), Some(allowed)) if !(*error <= allowed) => {
+                Some(format!(
+                    "taken between rows with an error of up to {error:.2e}, where {allowed:.2e} is allowed: closer rows show it"
+                ))
+            }
             _ => None,
         }
     }
@@ -165,6 +185,14 @@ pub struct Given {
 }
 
 impl Given {
+    /// The setup of the run that it is compared with.
+    ///
+    /// # Errors
+    /// A parameter of another type.
+    pub(crate) fn setup<P: ParameterSet>(&self) -> Result<Setup<P>, Error> {
+        Setup::of_spec(&self.spec, &self.parameters)
+    }
+
     /// A column; empty if it is not there.
     pub(crate) fn column(&self, asked: &Asked) -> &[f64] {
         let table = self.tables.iter().find(|(part, ..)| *part == asked.part);

@@ -31,7 +31,7 @@ pub mod record;
 pub mod report;
 pub mod results;
 pub mod run;
-pub(crate) mod sampled;
+pub mod sampled;
 pub mod score;
 pub mod setup;
 pub mod sketch;

@@ -1,17 +1,22 @@
 //! A curve of which rows are known: its values between them, and the error that its curvature leaves there.
 
+use crate::foreign::{Asked, Gap, Given};
+use crate::metric::Metric;
+
 /// Share of a span by which rows may end before its end.
-const SHORT: f64 = 0.01;
+pub(crate) const SHORT: f64 = 0.01;
+/// Least number of rows in a window of which the mean is taken.
+const DENSE: usize = 4;
 /// Relative rounding of an abscissa.
 const ROUNDING: f64 = 1e-9;
 
 /// A value between rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Between {
+pub struct Between {
     /// The value of the parabolas through the nearest rows.
-    pub(crate) value: f64,
+    pub value: f64,
     /// Their largest distance from the straight line: a bound of the error.
-    pub(crate) error: f64,
+    pub error: f64,
 }
 
 /// Rows with a rising abscissa.
@@ -82,6 +87,31 @@ pub(crate) fn uncovered(name: &str, unit: &str, x: &[f64], [from, to]: [f64; 2],
     let pair = x.windows(2).find(wide)?;
     let apart = pair[1] - pair[0];
     Some(format!("rows {apart:.4e} apart after {}, where at most {widest:.4e} show the curve", place(pair[0])))
+}
+
+impl Given {
+    /// Metrics of a curve over a span that the rows do not show, at most `widest` apart.
+    pub(crate) fn unseen(&self, x: &Asked, span: [f64; 2], widest: f64, metrics: &[Metric]) -> Vec<(Metric, Gap)> {
+        let why = uncovered(x.name, x.unit, self.column(x), span, widest);
+        let gap = |why: String| metrics.iter().map(move |metric| (*metric, Gap::Unknown(why.clone())));
+        why.into_iter().flat_map(gap).collect()
+    }
+
+    /// A column times `scale` at `place` between rows, from zero at zero on, and what it leaves open; nothing where at least
+    /// [`DENSE`] rows lie within `window`, of which the mean is taken.
+    pub(crate) fn between(&self, [x, y]: [&Asked; 2], place: f64, window: f64, scale: f64) -> Option<Gap> {
+        let [places, values] = [x, y].map(|asked| self.column(asked));
+        if places.iter().filter(|own| (*own - place).abs() <= window).count() >= DENSE {
+            return None;
+        }
+        let start = places.first().is_some_and(|first| *first > 0.0).then_some(0.0);
+        let from_zero = |rows: &[f64]| start.into_iter().chain(rows.iter().copied()).collect::<Vec<f64>>();
+        let (places, values) = (from_zero(places), from_zero(values));
+        Some(match Sampled::new(&places, &values).at(place) {
+            Some(Between { value, error }) => Gap::Between(Between { value: scale * value, error: scale * error }),
+            None => Gap::Unknown(format!("no rows around {} = {place}", x.name)),
+        })
+    }
 }
 
 #[cfg(test)]

@@ -154,18 +154,28 @@ pub fn json(scored: &Scored, ours: &Ours, gate: &Gate) -> Value {
     })
 }
 
+/// A text of the user's as it is in Markdown: no link, picture or mark comes of it.
+fn inert(text: &str) -> String {
+    let escaped = |c: char| if "\\`*[]!".contains(c) { vec!['\\', c] } else { vec![c] };
+    text.chars().flat_map(escaped).collect()
+}
+
 /// Writes `score.md` and `verdicts.json`.
 ///
 /// # Errors
 /// A file can't be written.
 pub fn write(scored: &Scored, ours: &Ours, gate: &Gate, folder: &Path) -> Result<(), Error> {
     let record = &scored.record;
-    let mut document = Document::new(title(scored));
+    let mut document = Document::new(inert(&title(scored)));
     document.paragraph(sentence(record) + ".");
     if let Some(refusal) = gate.refusal(scored) {
         document.paragraph(refusal + ".");
     }
-    document.table("", table(scored, ours));
+    let mut beside = table(scored, ours);
+    if let Some(own) = beside.rows.first_mut().and_then(|row| row.first_mut()) {
+        *own = inert(own);
+    }
+    document.table("", beside);
     if let Some(absent) = &ours.absent {
         document.paragraph(&**absent);
     }
@@ -173,7 +183,7 @@ pub fn write(scored: &Scored, ours: &Ours, gate: &Gate, folder: &Path) -> Result
     let verdicts = record.verdicts.iter().map(|v| (None, v));
     document.table("", verdicts::table(verdicts));
     for note in notes(scored) {
-        document.paragraph(note);
+        document.paragraph(inert(&note));
     }
     make_folder(folder)?;
     write_json(&folder.join("verdicts.json"), &json(scored, ours, gate))?;

@@ -22,9 +22,14 @@ const START: &str = "start.csv";
 /// Writes what another code needs to solve a case at a level, with parameters changed, and the names of the files.
 ///
 /// # Errors
-/// The parameters make no scene, or a file can't be written.
+/// The parameters make no scene, the folder has a form, or a file can't be written.
 pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> Result<Vec<String>, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
+    let form = folder.join(FILE);
+    if form.symlink_metadata().is_ok() {
+        let said = "it is there, and may be filled in; allowed: a folder without it";
+        return Err(Error::file(&form, said));
+    }
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
     let columns = start.into_iter();
@@ -48,7 +53,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
         Table::of_columns(columns).write(&folder.join(name))?;
         files.push(name);
     }
-    write_json(&folder.join(FILE), &Form::of(case, foreign, spec))?;
+    write_json(&form, &Form::of(case, foreign, spec))?;
     let readme = readme((case, foreign), (spec, &parameters), &demands, &files);
     write_whole(&folder.join("README.md"), readme.as_bytes())?;
     files.extend([FILE, "README.md"]);

@@ -78,8 +78,9 @@ impl Scored {
                 let mut values: BTreeMap<&str, f64> = values.into_iter().map(|(m, value)| (m.name, value)).collect();
                 for metric in &group.metrics {
                     // What should have been measured and was not is no number, which no check passes.
-                    let unknown = gaps.iter().any(|(of, gap)| of == metric && matches!(gap, Gap::Unknown(_)));
-                    let value = values.remove(metric.name).filter(|v| v.is_finite() && !unknown);
+                    let own = values.remove(metric.name);
+                    let own = gaps.iter().filter(|(of, _)| of == metric).fold(own, |own, (_, gap)| gap.value(own));
+                    let value = own.filter(|v| v.is_finite());
                     let unit = metric.unit.to_owned();
                     record.metrics.insert(metric.name.to_owned(), Measured { value, unit });
                 }

@@ -233,3 +233,41 @@ fn what_is_exported_is_the_problem() {
     let none = Answer::exported("consolidation", "n8", &["load=0.2"]);
     assert_eq!(none.text("reference.csv").lines().count(), 1);
 }
+
+#[test]
+fn a_form_is_not_overwritten() {
+    let result = Answer::of_column();
+    let before = result.text(FILE);
+    let (case, foreign) = find_scored("cook").unwrap();
+    let spec = RunSpec {
+        scheme: (foreign.judged_as)(crate::scheme::BasisName::Bspline2),
+        level: find_level(case, "h2").unwrap(),
+        set: Vec::new(),
+        perturbed: false,
+    };
+    let said = export::export(case, foreign, &spec, &result.path("")).unwrap_err().to_string();
+    assert!(said.contains("score.json: it is there") && said.contains("allowed: a folder without it"), "{said}");
+    assert_eq!((result.text(FILE), result.json("parameters.json")["case"].clone()), (before, json!("consolidation")));
+}
+
+#[test]
+fn words_of_a_result_are_words_on_the_page() {
+    let result = Answer::of_column();
+    result.say("code", json!({"name": "<script>|a", "version": "![p](http://a)"}));
+    result.say("scheme", json!("[a](javascript:b) `<i>`"));
+    result.change(SETTLED, None);
+    let series = result.text("series.csv").replace("base_pressure (-)", "<img onerror=x>");
+    fs::write(result.path("series.csv"), series).unwrap();
+    let scored = result.score().unwrap();
+    let ours = crate::report::scored::Ours::beside(&scored).unwrap();
+    crate::report::scored::write(&scored, &ours, &gate::gate(false, &[]), &result.path("")).unwrap();
+    let page = result.text("score.md");
+    for active in ["<script", "<img", "<i>", "[a](", "![p]("] {
+        assert!(!page.contains(active), "{active}: {page}");
+    }
+    for shown in
+        ["# consolidation n8, load=0.3: &lt;script>|a \\!\\[p\\](", "| &lt;script>\\|a |", "&lt;img onerror=x>"]
+    {
+        assert!(page.contains(shown), "{shown}: {page}");
+    }
+}

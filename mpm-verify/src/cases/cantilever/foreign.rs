@@ -3,10 +3,8 @@
 use super::edge::Edge;
 use super::*;
 use crate::cases::observe::start_columns;
-use crate::foreign::{Asked, Foreign, Given, Group};
+use crate::foreign::{Asked, Foreign, Given, Group, START_X, START_Y};
 
-const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
-const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x under the whole weight");
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y under the whole weight");
 const STRESS: Asked = Asked::particle("stress_xx", "Pa", "Cauchy stress σ_xx under the whole weight, tension positive");

@@ -29,12 +29,12 @@ pub(in crate::cases) fn foreign() -> Foreign {
             Group {
                 columns: &[TIME, SETTLEMENT],
                 metrics: vec![SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, SETTLEMENT_EARLY, SETTLEMENT_END],
-                measure: |given| Ok(setup(given)?.settlement_metrics(&rows(given))),
+                measure: |given| Ok(given.setup::<Consolidation>()?.settlement_metrics(&rows(given))),
             },
             Group {
                 columns: &[TIME, BASE],
                 metrics: vec![BASE_PRESSURE_ERROR, BASE_PRESSURE_ERROR_STEPS],
-                measure: |given| Ok(setup(given)?.base_pressure_metrics(&rows(given))),
+                measure: |given| Ok(given.setup::<Consolidation>()?.base_pressure_metrics(&rows(given))),
             },
         ],
         abscissa: Some(TIME),
@@ -63,13 +63,9 @@ pub(in crate::cases) fn foreign() -> Foreign {
     }
 }
 
-fn setup(given: &Given) -> Result<Setup<Consolidation>, Error> {
-    Setup::of_spec(&given.spec, &given.parameters)
-}
-
 /// The times of the reference are to lie between rows, and those so close that the curve is known between them.
 fn gaps(given: &Given) -> Gaps {
-    let exact = solution(setup(given)?.load, None);
+    let exact = solution(given.setup::<Consolidation>()?.load, None);
     let (time, Some(first), Some(last)) = (given.column(&TIME), exact.first(), exact.last()) else {
         return Ok(Vec::new());
     };

@@ -4,10 +4,8 @@ use super::probes::Probes;
 use super::run::energy_defect;
 use super::*;
 use crate::cases::observe::{column, discretisation, start_columns};
-use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured, START_X, START_Y};
 
-const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
-const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x at rest");
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y at rest");
 const MEAN_STRESS: Asked =
@@ -45,13 +43,13 @@ pub(in crate::cases) fn foreign() -> Foreign {
                 ],
                 measure: |given| {
                     let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
-                    Ok(probes(given)?.of_displacement(moved, &setup(given)?))
+                    Ok(probes(given)?.of_displacement(moved, &given.setup::<Cook>()?))
                 },
             },
             Group {
                 columns: &[START_X, START_Y, MEAN_STRESS],
                 metrics: [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses).collect(),
-                measure: |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &setup(given)?)),
+                measure: |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?)),
             },
             Group {
                 columns: &[REACTION],
@@ -84,10 +82,6 @@ pub(in crate::cases) fn foreign() -> Foreign {
         ],
         curves: |_| Vec::new(),
     }
-}
-
-fn setup(given: &Given) -> Result<Setup<Cook>, Error> {
-    Setup::of_spec(&given.spec, &given.parameters)
 }
 
 /// The probes in the particles of a code. Its cells need not have as many particles as ours; two cells are as wide for all.

@@ -6,7 +6,7 @@ use super::run::Dam;
 use super::*;
 use crate::cases::observe::{column, start_columns};
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
-use crate::sampled::{Sampled, uncovered};
+use crate::sampled::Sampled;
 
 const TIME: Asked = Asked::series("time", "s", "time since the gate was removed, a row every 0.005 s");
 const FRONT: Asked = Asked::series("front", "m", "x of the outermost particle and half its spacing");
@@ -89,49 +89,35 @@ fn of_flow(given: &Given) -> Measured {
         ..State::default()
     };
     let rows = (0..given.column(&TIME).len()).map(row).collect();
-    let density = Setup::<DamBreak>::of_spec(&given.spec, &given.parameters)?.density;
-    let mut metrics = Flow { rows }.metrics(density, given.spec.level.h);
-    for (metric, column) in [(FRONT_X_EARLY, FRONT), (COVERED_EARLY, COVERED)] {
-        let between = Sampled::new(given.column(&TIME), given.column(&column)).at(EARLY);
-        let value = between.map_or(f64::NAN, |b| b.value);
-        metrics.iter_mut().filter(|(m, _)| *m == metric).for_each(|(_, own)| *own = value);
-    }
-    Ok(metrics)
+    let density = given.setup::<DamBreak>()?.density;
+    Ok(Flow { rows }.metrics(density, given.spec.level.h))
 }
 
 /// The rows are to show the front while it is compared, the area at its time, and the energies over the whole flow.
 fn gaps(given: &Given) -> Gaps {
     let time = given.column(&TIME);
-    let setup = Setup::<DamBreak>::of_spec(&given.spec, &given.parameters)?;
-    let shown = |span: [f64; 2], widest: f64| uncovered(TIME.name, TIME.unit, time, span, widest);
-    let unknown = |metrics: &[Metric], why: &str| {
-        let gap = |metric: &Metric| (*metric, Gap::Unknown(why.to_owned()));
-        metrics.iter().map(gap).collect::<Vec<_>>()
-    };
-    let mut gaps = Vec::new();
+    let setup = given.setup::<DamBreak>()?;
     let [from, to] = [COMPARED.0, COMPARED.1].map(|t| t * time_scale());
-    let front = Sampled::new(time, given.column(&FRONT));
-    match (shown([from, to], (to - from) / INTERVALS), front.error(from, to)) {
-        (Some(why), _) => gaps.extend(unknown(&[FRONT_RMS_ERROR, ARRIVAL_TIME, ARRIVAL_ERROR, FRONT_SPEED_MAX], &why)),
-        (None, error) => {
-            let error = error.unwrap_or(f64::INFINITY);
-            gaps.push((FRONT_RMS_ERROR, Gap::Error(error)));
-            let passes = passage(TANK - 2.0 * given.spec.level.h).map_or(f64::NAN, |(_, speed)| speed);
-            gaps.push((ARRIVAL_ERROR, Gap::Error(error / passes)));
-        }
+    let of_front = [FRONT_RMS_ERROR, ARRIVAL_TIME, ARRIVAL_ERROR, FRONT_SPEED_MAX];
+    let mut gaps = given.unseen(&TIME, [from, to], (to - from) / INTERVALS, &of_front);
+    if gaps.is_empty() {
+        let error = Sampled::new(time, given.column(&FRONT)).error(from, to).unwrap_or(f64::INFINITY);
+        let speed = passage(TANK - 2.0 * given.spec.level.h).map_or(f64::NAN, |(_, speed)| speed);
+        gaps.extend([(FRONT_RMS_ERROR, Gap::Error(error)), (ARRIVAL_ERROR, Gap::Error(error / speed))]);
     }
-    if let Some(why) = shown([0.0, setup.duration], MOVING) {
-        gaps.extend(unknown(&[ENERGY_EXCESS, MOTION_EXCESS, MOTION_LOSS, FRONT_SPEED_MAX], &why));
-    }
-    match (shown([EARLY; 2], MOVING), Sampled::new(time, given.column(&COVERED)).at(EARLY)) {
-        (None, Some(between)) => gaps.push((COVERED_EARLY, Gap::Error(between.error))),
-        (why, _) => gaps.extend(unknown(&[COVERED_EARLY], &why.unwrap_or_else(|| format!("no rows around {EARLY} s")))),
+    let over_all = [ENERGY_EXCESS, MOTION_EXCESS, MOTION_LOSS, FRONT_SPEED_MAX];
+    gaps.extend(given.unseen(&TIME, [0.0, setup.duration], MOVING, &over_all));
+    for (metric, column) in [(COVERED_EARLY, COVERED), (FRONT_X_EARLY, FRONT)] {
+        gaps.extend(given.unseen(&TIME, [EARLY; 2], MOVING, &[metric]));
+        let between = Sampled::new(time, given.column(&column)).at(EARLY);
+        gaps.extend(between.map(|between| (metric, Gap::Between(between))));
     }
     // A front that has not arrived may do so after the end.
     let arrives = given.column(&FRONT).iter().any(|x| *x >= TANK - 2.0 * given.spec.level.h);
     let ends = time.last().is_some_and(|last| *last < setup.duration * (1.0 - 1e-6));
     if ends && !arrives {
-        gaps.extend(unknown(&[ARRIVAL_TIME, ARRIVAL_ERROR], "the series ends before the front arrives"));
+        let why = "the series ends before the front arrives";
+        gaps.extend([ARRIVAL_TIME, ARRIVAL_ERROR].map(|metric| (metric, Gap::Unknown(why.to_owned()))));
     }
     Ok(gaps)
 }

@@ -3,7 +3,7 @@
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::reference::EXACT;
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress};
+use crate::cases::observe::{checkerboard, mean_stress, oscillation};
 use crate::probe::PointProbe;
 use crate::statistics::rms;
 use mpm_core::Part;
@@ -140,7 +140,9 @@ impl Setup<Footing> {
     /// Rms of the mean normal stress (Pa) of particles that start at `references` (m), and its values over the strength at the
     /// points of the reference.
     pub(super) fn of_stress(&self, references: &[[f64; 2]], mean_stress: &[f64]) -> Vec<(Metric, f64)> {
-        let mut values = vec![(MEAN_STRESS_RMS, rms(mean_stress.iter().copied()))];
+        let whole = rms(mean_stress.iter().copied());
+        let patch = oscillation(references, mean_stress, 2.0 * self.h);
+        let mut values = vec![(MEAN_STRESS_RMS, whole), (OSCILLATION_RATIO, patch / whole)];
         for &(metric, point) in MEAN_STRESSES {
             let probe = PointProbe::new(references, point, 2.0 * self.h);
             let value = probe.map_or(f64::NAN, |p| p.value(mean_stress));

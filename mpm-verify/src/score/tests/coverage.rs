@@ -149,3 +149,24 @@ fn an_energy_that_is_bounded_is_judged_of_rows_that_show_it() {
     assert_eq!(energies(&[0.01, 0.08]), Outcome::NotJudged);
     assert_eq!(energies(&[-0.02, -0.04, -0.06, -0.08]), Outcome::Failed);
 }
+
+/// A pressure that alternates from particle to particle is not that of the reference, whatever its mean.
+#[test]
+fn a_footing_with_a_checkerboard_is_not_smooth() {
+    let result = Answer::exported("footing", "b10", &[]);
+    let start = Table::read(&result.path("start.csv")).unwrap();
+    let [x, y] = ["reference_x", "reference_y"].map(|name| start.column(name).to_vec());
+    let smooth = |amplitude: f64| {
+        let value = |k: usize| {
+            let board = [(x[k] / 0.05).floor(), (y[k] / 0.05).floor()].iter().sum::<f64>().rem_euclid(2.0);
+            -200.0 + amplitude * (2.0 * board - 1.0)
+        };
+        let stress = (0..x.len()).map(value).collect();
+        let heads = ["reference_x (m)", "reference_y (m)", "mean_stress (Pa)"].map(str::to_owned);
+        let columns = heads.into_iter().zip([x.clone(), y.clone(), stress]).collect();
+        Table::of_columns(columns).write(&result.path("particles.csv")).unwrap();
+        result.say("series", Value::Null);
+        found(&result.score().unwrap(), "smooth-squares").remove(0).0
+    };
+    assert_eq!([0.0, 50.0, 200.0, 1e6].map(smooth), [Outcome::Right, Outcome::Right, Outcome::Failed, Outcome::Failed]);
+}
