@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Where they lie, from this package's folder: what computes, and not what judges, reports or draws.
-pub(crate) const SOURCES: [&str; 18] = [
+pub(crate) const SOURCES: [&str; 19] = [
     "../.cargo/config.toml",
     "../Cargo.lock",
     "../Cargo.toml",
@@ -12,6 +12,7 @@ pub(crate) const SOURCES: [&str; 18] = [
     "../mpm-core/src",
     "Cargo.toml",
     "exact/Cargo.toml",
+    "exact/references",
     "exact/src",
     "references",
     "solvers/Cargo.toml",

@@ -10,22 +10,22 @@ pub struct Wanted {
     pub name: &'static str,
     /// The quantity, its norm and the time at which it counts.
     pub statement: &'static str,
-    /// Truth checks that judge it.
-    pub by: &'static [&'static str],
-    /// Known limits that explain a miss of these checks.
-    pub limits: &'static [&'static str],
+    /// Truth checks that judge it, apart by spaces.
+    pub by: &'static str,
+    /// Known limits that explain a miss of these checks, apart by spaces.
+    pub limits: &'static str,
     /// Whether runs of which none of the checks says anything have no reference for it, and are not asked.
     pub only_where_referenced: bool,
 }
 
 impl Wanted {
     /// A quantity that the checks `by` judge.
-    pub(crate) const fn new(name: &'static str, statement: &'static str, by: &'static [&'static str]) -> Self {
-        Self { name, statement, by, limits: &[], only_where_referenced: false }
+    pub(crate) const fn new(name: &'static str, statement: &'static str, by: &'static str) -> Self {
+        Self { name, statement, by, limits: "", only_where_referenced: false }
     }
 
     /// With the known limits that explain a miss.
-    pub(crate) const fn missed_by(self, limits: &'static [&'static str]) -> Self {
+    pub(crate) const fn missed_by(self, limits: &'static str) -> Self {
         Self { limits, ..self }
     }
 
@@ -34,18 +34,24 @@ impl Wanted {
         Self { only_where_referenced: true, ..self }
     }
 
+    /// Whether a check is among those that judge it.
+    pub(crate) fn is_judged_by(&self, check: &str) -> bool {
+        self.by.split(' ').any(|name| name == check)
+    }
+
     fn judging<'a>(&self, verdicts: &'a [Verdict]) -> impl Iterator<Item = &'a Verdict> + use<'a> {
-        let by = self.by;
-        verdicts.iter().filter(move |v| v.kind == Kind::Truth && by.contains(&&*v.check))
+        let wanted = *self;
+        verdicts.iter().filter(move |v| v.kind == Kind::Truth && wanted.is_judged_by(&v.check))
     }
 
     /// Turns a miss into *wrong as known* where a known limit explains it.
     fn explain(&self, verdicts: &mut [Verdict]) {
-        let seen = |v: &&Verdict| v.outcome == Outcome::WrongAsKnown && self.limits.contains(&&*v.check);
+        let seen =
+            |v: &&Verdict| v.outcome == Outcome::WrongAsKnown && self.limits.split(' ').any(|name| name == v.check);
         let Some(limit) = verdicts.iter().find(seen).map(|v| v.check.clone()) else {
             return;
         };
-        let missed = |v: &&mut Verdict| v.kind == Kind::Truth && v.failed() && self.by.contains(&&*v.check);
+        let missed = |v: &&mut Verdict| v.kind == Kind::Truth && v.failed() && self.is_judged_by(&v.check);
         for verdict in verdicts.iter_mut().filter(missed) {
             verdict.outcome = Outcome::WrongAsKnown;
             verdict.source = format!("known limit {limit}; {}", verdict.source);
@@ -65,7 +71,7 @@ impl Wanted {
         };
         let reason = || match self.judging(verdicts).next() {
             Some(v) => format!("{}: {}", v.check, v.source),
-            None => format!("none of its checks was applied: {}", self.by.join(", ")),
+            None => format!("none of its checks was applied: {}", self.by.replace(' ', ", ")),
         };
         Some(Verdict {
             check: self.name.to_owned(),
@@ -95,7 +101,7 @@ mod tests {
     use crate::check::Finding;
     use crate::study::judge::outcome_of;
 
-    const DEFLECTION: Wanted = Wanted::new("deflection", "at rest", &["mid-edge", "tip"]).missed_by(&["locked"]);
+    const DEFLECTION: Wanted = Wanted::new("deflection", "at rest", "mid-edge tip").missed_by("locked");
 
     fn found(holds: Option<bool>, check: &str, kind: Kind) -> Verdict {
         let finding = match holds {
@@ -129,8 +135,8 @@ mod tests {
             let is = |name: &str, kind| case.checks.iter().any(|c| c.name == name && c.kind == kind);
             for wanted in &case.wanted {
                 let of = format!("{} {}", case.name, wanted.name);
-                assert!(!wanted.by.is_empty() && wanted.by.iter().all(|name| is(name, Kind::Truth)), "{of}");
-                assert!(wanted.limits.iter().all(|name| is(name, Kind::KnownLimit)), "{of}");
+                assert!(wanted.by.split(' ').all(|name| is(name, Kind::Truth)), "{of}");
+                assert!(wanted.limits.split_whitespace().all(|name| is(name, Kind::KnownLimit)), "{of}");
             }
         }
     }

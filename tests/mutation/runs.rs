@@ -118,10 +118,9 @@ pub(crate) const BENT_MEMBRANE: Runs = &[
 pub(crate) const SLOW: Runs = &["mms-static --level n8", "mms-static --level n16", "mms-static --level n32"];
 pub(crate) const SLOW_RATIOS: Runs = &["mms-static --level n8", "mms-static --level n8 --set poisson_ratio=0.3"];
 
-/// A soft body whose velocity has a constant gradient, beside walls and in three dimensions; waves; and free fall.
+/// A soft body whose velocity has a constant gradient, beside walls and in three dimensions, and free fall.
 pub(crate) const AFFINE: Runs = &["patch --scheme bspline2-none-apic"];
 pub(crate) const FILTERED: Runs = &["patch --scheme bspline2-none-xpic2"];
-pub(crate) const WAVE: Runs = &["patch --scheme bspline2-none-xpic2 --set waves=1"];
 pub(crate) const NINE_ENTRIES: Runs = &["patch --scheme gimp-none-flip --set dimension=3"];
 pub(crate) const DAMPED: Runs = &["patch --scheme gimp-none-flip --set strain=0 --set fall=0.2 --set damping=0.5"];
 pub(crate) const FALLING: Runs = &["patch --scheme newmark-gimp-none --set strain=0 --set fall=0.2"];

@@ -2,6 +2,10 @@
 
 use crate::parameter::{Domain, number, parameters};
 
+/// Share of an unseen strain (one that Π filters out) kept by `fbar-consistent`: ε of `docs/remedy.md`, whose square is
+/// the share of the bulk modulus that resists it.
+pub const UNSEEN: f64 = 0.01;
+
 parameters! { pub const:
     DIMENSION = "dimension", "-", "2", Domain::Integer { least: 1, most: 3 },
         "dimension: 1 uniaxial strain, 2 plane strain, 3";

@@ -58,9 +58,7 @@ pub(super) fn case() -> Case {
             .runs(Nightly, "h0.25", &few, HALF_A_MILLION)
             .done(),
         levels,
-        wanted: vec![
-            Wanted::new("pressure", "pressure at the floor at rest", &["base-pressure"]).missed_by(&["creep"]),
-        ],
+        wanted: vec![Wanted::new("pressure", "pressure at the floor at rest", "base-pressure").missed_by("creep")],
         checks: checks(),
         headlines: vec![
             headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (10⁻⁶)", 1e6, 4),

@@ -22,7 +22,6 @@ mod footing;
 mod forms;
 mod growth;
 mod landslide;
-mod lattice_waves;
 mod mandel;
 mod manufactured;
 mod mms_axis;

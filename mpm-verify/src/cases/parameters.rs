@@ -7,9 +7,7 @@ use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 
-/// Share of an unseen strain (one that Π filters out) kept by `fbar-consistent`: ε of `docs/remedy.md`, whose square is
-/// the share of the bulk modulus that resists it.
-pub(super) const UNSEEN: f64 = 0.01;
+pub(super) use crate::exact::common::UNSEEN;
 
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";

@@ -53,10 +53,10 @@ pub(super) fn case() -> Case {
             .done(),
         levels,
         wanted: vec![
-            Wanted::new("place", "largest distance of a particle from its place of rest", &["stays"])
-                .missed_by(&["cubic-out-of-balance", "pressure-relaxes"]),
-            Wanted::new("pressure", "mean pressure at the foot", &["base-pressure"])
-                .missed_by(&["cubic-out-of-balance", "pressure-relaxes"]),
+            Wanted::new("place", "largest distance of a particle from its place of rest", "stays")
+                .missed_by("cubic-out-of-balance pressure-relaxes"),
+            Wanted::new("pressure", "mean pressure at the foot", "base-pressure")
+                .missed_by("cubic-out-of-balance pressure-relaxes"),
         ],
         checks: checks(),
         headlines: vec![

@@ -152,7 +152,7 @@ pub(super) fn case() -> Case {
             .done(),
         levels,
         wanted: vec![
-            Wanted::new("frequency", "frequency over the periods", &["frequency"]).missed_by(&["locks", "motion-lost"]),
+            Wanted::new("frequency", "frequency over the periods", "frequency").missed_by("locks motion-lost"),
         ],
         checks: checks(),
         headlines: vec![

@@ -119,7 +119,7 @@ fn used(v: &Verdict) -> Option<f64> {
 /// The verdict with the tightest margin among those that judge what a case is run for, of runs that are right.
 pub(super) fn tightest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Tightest<'a>> {
     let wanted = |v: &&Verdict| {
-        let judges = case.wanted.iter().any(|w| w.by.contains(&&*v.check));
+        let judges = case.wanted.iter().any(|w| w.is_judged_by(&v.check));
         judges && v.kind == Kind::Truth && v.outcome == Outcome::Right
     };
     let right = study.records.iter().filter(|r| outcome_of_run(r) == Outcome::Right);

@@ -178,7 +178,7 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
         file: "explicit/transfer/xpic.rs",
         sound: "own.change - *mapped / Node::splat(node.mass())",
         broken: "(own.change - *mapped / Node::splat(node.mass())) * Node::splat(0.5)",
-        seen_by: &[(FILTERED, "filter"), (WAVE, "filter")],
+        seen_by: &[(FILTERED, "filter")],
     },
     Fault {
         name: "one entry of the gradient of velocity is a fiftieth too large",

@@ -74,7 +74,7 @@ pub(super) fn case() -> Case {
         wanted: vec![Wanted::new(
             "bending",
             "deflection of the cantilever over that without a penalty",
-            &["no-body-bends-more"],
+            "no-body-bends-more",
         )],
         checks: checks(),
         headlines: vec![

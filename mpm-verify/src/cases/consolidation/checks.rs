@@ -1,8 +1,8 @@
 //! The checks of the column. Tolerances are derived in `docs/consolidation.md`.
 
-use super::reference::layer;
 use super::*;
 use crate::cases::checks::{finest, index, observed_order, orders_in_time};
+use crate::exact::consolidation::layer;
 use std::collections::BTreeMap;
 
 /// The order in h that theory gives.

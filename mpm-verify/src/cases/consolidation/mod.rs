@@ -4,14 +4,13 @@
 
 mod checks;
 pub(super) mod foreign;
-mod reference;
 mod run;
 
 use super::family::levels;
 use super::poro::{ROUNDING, spaces};
+use crate::exact::consolidation::{At, solution};
 use crate::parameter::Parameter;
 use crate::prelude::*;
-use reference::{At, solution};
 use run::HEIGHT;
 
 const LEVELS: [(&str, f64); 6] =
@@ -89,9 +88,9 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("settlement", "settlement over time", &["settlement"]).missed_by(&["logarithm-loses-water"]),
-            Wanted::new("pressure", "pressure at the base over time", &["base-pressure"])
-                .missed_by(&["logarithm-loses-water"]),
+            Wanted::new("settlement", "settlement over time", "settlement").missed_by("logarithm-loses-water"),
+            Wanted::new("pressure", "pressure at the base over time", "base-pressure")
+                .missed_by("logarithm-loses-water"),
         ],
         checks: checks::checks(),
         headlines: vec![

@@ -1,9 +1,9 @@
 //! Derived quantities, scene and observations of the column.
 
-use super::reference::between;
 use super::*;
 use crate::cases::growth;
 use crate::cases::poro::{base_pressure, mass_error, matrix_entries, over_outflow};
+use crate::exact::consolidation::between;
 use mpm_core::material::ImprovedHencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};
 

@@ -1,8 +1,8 @@
 //! Scene and observations of the lattice: a row for every step that is tried.
 
-use super::theory::Setting;
 use super::*;
 use crate::cases::noise::noise;
+use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::Viscous;

@@ -1,8 +1,8 @@
 //! Checks of the dam break. The tolerances are derived in `docs/dam-break.md`.
 
-use super::reference::{elastic_energy, energies, greatest_speed, passage, uncertainty};
 use super::*;
 use crate::cases::parameters::is_of_own_problem;
+use crate::exact::dam_break::{elastic_energy, energies, greatest_speed, passage, uncertainty};
 
 /// Relative tolerance of the forces at rest: of the exact start, and after the gravity stage.
 const AT_REST: (f64, f64) = (1e-3, 5e-3);

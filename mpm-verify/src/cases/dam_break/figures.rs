@@ -1,9 +1,9 @@
 //! Figures: the paper's Figure 12, the flow against time, an animation.
 
-use super::reference::{front_curve, time_scale, uncertainty};
 use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
 use crate::draw::{FieldFigure, FieldPanel, animate_fields, share_ranges_of_columns, signed};
+use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
 /// From above: standard, the paper's, ours.
 const SHOWN: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];

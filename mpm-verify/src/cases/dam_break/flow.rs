@@ -1,7 +1,7 @@
 //! The observed flow and its metrics.
 
-use super::reference::{COMPARED, energies, front, passage, time_scale};
 use super::*;
+use crate::exact::dam_break::{COMPARED, energies, front, passage, time_scale};
 use crate::statistics::rms;
 
 /// The state behind the gate, just before it is removed.

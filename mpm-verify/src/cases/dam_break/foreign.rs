@@ -1,10 +1,10 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
 use super::flow::{Flow, State};
-use super::reference::{COMPARED, front_curve, passage, time_scale};
 use super::run::Dam;
 use super::*;
 use crate::cases::observe::{column, start_columns};
+use crate::exact::dam_break::{COMPARED, front_curve, passage, time_scale};
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
 use crate::sampled::Sampled;
 

@@ -1,7 +1,7 @@
 //! Duration of the free flight, until a function sees both discs.
 
 use super::Discs;
-use crate::cases::lattice_waves::nodes;
+use crate::exact::lattice::nodes;
 use crate::setup::Setup;
 
 /// Way in cells, along each axis, between two looks.
@@ -52,7 +52,7 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
 mod tests {
     use super::super::run::RADIUS;
     use super::*;
-    use crate::cases::lattice_waves::support;
+    use crate::exact::lattice::support;
     use crate::parameter::{ParameterSet, Parameters};
     use crate::scheme::{BasisName, RemedyName, Scheme};
     use crate::spec::Level;

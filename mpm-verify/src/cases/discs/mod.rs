@@ -113,9 +113,9 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels: levels.to_vec(),
         wanted: vec![
-            Wanted::new("flight", "velocity and volume of every particle before the impact", &["free-flight"])
-                .missed_by(&["touches-through-the-grid"]),
-            Wanted::new("rebound", "relative velocity after the impact", &["restitution"]).where_referenced(),
+            Wanted::new("flight", "velocity and volume of every particle before the impact", "free-flight")
+                .missed_by("touches-through-the-grid"),
+            Wanted::new("rebound", "relative velocity after the impact", "restitution").where_referenced(),
         ],
         checks: checks(),
         headlines: vec![

@@ -66,7 +66,7 @@ pub(super) fn case() -> Case {
         limits: &["No exact solution of the bounce: what is kept and bounded is judged."],
         plan: plan(&levels),
         levels,
-        wanted: vec![Wanted::new("friction", "impulse along the floor over that across it", &["slides"])],
+        wanted: vec![Wanted::new("friction", "impulse along the floor over that across it", "slides")],
         checks: checks(),
         headlines: vec![
             headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),

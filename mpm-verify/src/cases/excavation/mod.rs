@@ -141,7 +141,7 @@ pub(super) fn case() -> Case {
         plan: plan(),
         levels: LEVELS.to_vec(),
         wanted: vec![
-            Wanted::new("stability", "whether the slope stands, whole and cut", &["stands-below-the-limit", "falls-above-the-limit"]),
+            Wanted::new("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit"),
         ],
         checks: checks(),
         headlines: vec![

@@ -147,15 +147,9 @@ fn case_of(
         references: references(),
         limits: LIMITS,
         wanted: vec![
-            Wanted::new(
-                "geostatic-stress",
-                "vertical stress far from the face after the gravity stage",
-                &["overburden"],
-            )
-            .missed_by(&["locked-stress"]),
-            Wanted::new("stability", "whether the slope fails", &["stands", "fails"])
-                .missed_by(&["locked"])
-                .where_referenced(),
+            Wanted::new("geostatic-stress", "vertical stress far from the face after the gravity stage", "overburden")
+                .missed_by("locked-stress"),
+            Wanted::new("stability", "whether the slope fails", "stands fails").missed_by("locked").where_referenced(),
         ],
         checks: checks::checks(),
         headlines: vec![

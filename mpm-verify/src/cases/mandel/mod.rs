@@ -70,8 +70,8 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("pressure", "pressure in the middle over time", &["centre-pressure", "peak"]),
-            Wanted::new("motion", "paths of plate and side", &["settlement", "bulge"]),
+            Wanted::new("pressure", "pressure in the middle over time", "centre-pressure peak"),
+            Wanted::new("motion", "paths of plate and side", "settlement bulge"),
         ],
         checks: checks(),
         headlines: vec![

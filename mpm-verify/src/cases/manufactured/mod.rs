@@ -91,8 +91,8 @@ where
         description,
         levels: levels(),
         wanted: vec![
-            Wanted::new("displacement", "rms error of u at the end", &["error-bound"])
-                .missed_by(&["motion-lost", "beyond-bound"]),
+            Wanted::new("displacement", "rms error of u at the end", "error-bound")
+                .missed_by("motion-lost beyond-bound"),
         ],
         headlines: headlines(),
         quantities: ERRORS.to_vec(),

@@ -93,7 +93,7 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("fields", "rms errors of u and p at the end", &["error-bound"]),
+            Wanted::new("fields", "rms errors of u and p at the end", "error-bound"),
         ],
         checks: checks::checks(),
         headlines: vec![

@@ -3,7 +3,6 @@
 //!
 //! Set-up, choices and tolerances: `docs/newton.md`.
 
-mod exact;
 mod run;
 
 use super::checks::quadratic;
@@ -71,8 +70,7 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("equilibrium", "last equilibrium that was found", &["never-wrong", "no-more-than-there-is"])
-                .missed_by(&["moved-quadrature", "hair-cut"]),
+            Wanted::new("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is").missed_by("moved-quadrature hair-cut"),
         ],
         checks: checks(),
         headlines: vec![

@@ -1,9 +1,9 @@
 //! Scene and observations of the column, step by step; the time is the share of the load.
 
-use super::exact::{Body as Uniaxial, Column as Exact};
 use super::*;
 use crate::cases::checks::newton_rate;
 use crate::cases::observe::finds_equilibrium;
+use crate::exact::uniaxial::{Body as Uniaxial, Column as Exact};
 use crate::statistics::rms;
 use mpm_core::contact::{Barrier, RigidContact, RigidFace};
 use mpm_core::material::{Hencky, HenckyJ2, Strength};

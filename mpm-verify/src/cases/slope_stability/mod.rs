@@ -65,7 +65,7 @@ pub(super) fn case() -> Case {
         plan: plan(),
         levels: LEVELS.to_vec(),
         wanted: vec![
-            Wanted::new("factor-of-safety", "factor of safety against limit analysis", &["limit-load"]).missed_by(&["locked"]),
+            Wanted::new("factor-of-safety", "factor of safety against limit analysis", "limit-load").missed_by("locked"),
         ],
         checks: checks(),
         headlines: vec![

@@ -53,9 +53,7 @@ pub(super) fn case() -> Case {
         ],
         plan: plan(&levels),
         levels,
-        wanted: vec![
-            Wanted::new("displacement", "rms error of u", &["error-bound"]).missed_by(&["one-a-cell", "beyond-bound"]),
-        ],
+        wanted: vec![Wanted::new("displacement", "rms error of u", "error-bound").missed_by("one-a-cell beyond-bound")],
         checks: checks::checks(),
         headlines: vec![
             headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2),

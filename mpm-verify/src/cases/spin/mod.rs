@@ -66,10 +66,10 @@ pub(super) fn case() -> Case {
         plan: plan(),
         levels: LEVELS.to_vec(),
         wanted: vec![
-            Wanted::new("rotation", "angular momentum that is left", &["affine-parts-take-their-share"])
-                .missed_by(&["flip-spins-down", "filters-spin-down"]),
-            Wanted::new("stretch", "mean stretch of the last half", &["stretch"])
-                .missed_by(&["gimp-swells", "musl-swells"])
+            Wanted::new("rotation", "angular momentum that is left", "affine-parts-take-their-share")
+                .missed_by("flip-spins-down filters-spin-down"),
+            Wanted::new("stretch", "mean stretch of the last half", "stretch")
+                .missed_by("gimp-swells musl-swells")
                 .where_referenced(),
         ],
         checks: checks(),

@@ -1,7 +1,7 @@
 //! Scene, observations and predictions of the body.
 
-use super::theory::Lattice;
 use super::*;
+use crate::exact::stretched_lattice::Lattice;
 use crate::statistics::rms;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::NeoHookean;

@@ -132,8 +132,8 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("settlement", "settlement of the finest of three levels", &["taylor-hood", "square"]),
-            Wanted::new("limit-load", "limit load of undrained clay", &["prandtl"]).where_referenced(),
+            Wanted::new("settlement", "settlement of the finest of three levels", "taylor-hood square"),
+            Wanted::new("limit-load", "limit load of undrained clay", "prandtl").where_referenced(),
         ],
         checks: checks::checks(),
         headlines: vec![

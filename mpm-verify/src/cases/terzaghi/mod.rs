@@ -66,9 +66,9 @@ pub(super) fn case() -> Case {
         plan: plan(&levels),
         levels,
         wanted: vec![
-            Wanted::new("settlement", "settlement at the end", &["settlement"]),
-            Wanted::new("pressure", "largest nodal pressure after the first step", &["overshoot"])
-                .missed_by(&["a-sixth-is-not-enough"]),
+            Wanted::new("settlement", "settlement at the end", "settlement"),
+            Wanted::new("pressure", "largest nodal pressure after the first step", "overshoot")
+                .missed_by("a-sixth-is-not-enough"),
         ],
         checks: checks(),
         headlines: vec![

@@ -1,7 +1,7 @@
 //! Scene and observations of a free beam that swings in its first mode, half of it by symmetry.
 
-use super::theory::{Beam, Mode, stiffness};
 use super::*;
+use crate::exact::free_beam::{Beam, Mode, stiffness};
 use crate::statistics::fit_line;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};

@@ -69,7 +69,7 @@ pub(super) fn case() -> Case {
         wanted: vec![Wanted::new(
             "stress",
             "noise of the stress that is carried along",
-            &["domains-that-tile-are-silent", "noise"],
+            "domains-that-tile-are-silent noise",
         )],
         checks: checks(),
         headlines: vec![

@@ -1,7 +1,7 @@
 //! Scene and observations of the body, twice in a cell.
 
 use super::*;
-use crate::cases::lattice_waves::{force, symbol, transform};
+use crate::exact::lattice::{force, symbol, transform};
 use crate::statistics::rms;
 use mpm_core::Law;
 use mpm_core::explicit::courant_time_step;

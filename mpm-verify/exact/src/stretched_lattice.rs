@@ -1,14 +1,14 @@
 //! Where a lattice that is stretched loses its stiffness, where neighbours part, and how its stress is noisy until then.
 
-use crate::cases::lattice_waves::{force, nodes, symbol, transform};
-use crate::scheme::BasisName;
+use crate::lattice::{force, nodes, symbol, transform};
 use mpm_core::Axis;
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_solvers::scheme::BasisName;
 use nalgebra::DMatrix;
 use std::f64::consts::TAU;
 
 /// Cells of the free part on each side of the middle.
-pub(super) const FREE: usize = 4;
+pub const FREE: usize = 4;
 /// Waves of the lattice whose forces are summed.
 const WAVES: i32 = 3;
 /// Step of the second derivative, in cells.
@@ -22,14 +22,16 @@ const ROUNDING: f64 = 1e-9;
 
 /// A basis and the half size of the particles (cells).
 #[derive(Clone, Copy)]
-pub(super) struct Lattice {
-    pub(super) basis: BasisName,
-    pub(super) half_size: f64,
+pub struct Lattice {
+    /// Basis.
+    pub basis: BasisName,
+    /// Half size of the particles (cells).
+    pub half_size: f64,
 }
 
 impl Lattice {
     /// Whether neighbours have no common node somewhere in the free part; places in cells.
-    pub(super) fn parted(&self, mut places: Vec<f64>) -> bool {
+    pub fn parted(&self, mut places: Vec<f64>) -> bool {
         places.sort_by(f64::total_cmp);
         let free = |x: f64| x.abs() < FREE as f64;
         let apart = |pair: &[f64]| {
@@ -42,7 +44,7 @@ impl Lattice {
 
     /// Least stiffness over mass of the free nodes: of the stiffness `axial` of a particle at these places (cells), and
     /// of a stress that moves with it. Only its sign has a meaning.
-    pub(super) fn least_stiffness(&self, places: &[f64], axial: f64, stress: f64) -> f64 {
+    pub fn least_stiffness(&self, places: &[f64], axial: f64, stress: f64) -> f64 {
         let matrix = match self.basis {
             BasisName::Linear => self.tangent::<2, Linear>(places, axial, stress),
             BasisName::Gimp | BasisName::Q8 => self.tangent::<3, Gimp>(places, axial, stress),
@@ -54,7 +56,7 @@ impl Lattice {
     }
 
     /// Whether the least stiffness is below zero.
-    pub(super) fn is_unstable(&self, places: &[f64], axial: f64, stress: f64) -> bool {
+    pub fn is_unstable(&self, places: &[f64], axial: f64, stress: f64) -> bool {
         self.least_stiffness(places, axial, stress) < -ROUNDING * axial
     }
 
@@ -92,7 +94,7 @@ impl Lattice {
 
     /// Rms of the stress that answers the forces of a uniform stress, over it, with `per_cell` particles a cell: see
     /// `docs/stretch.md`.
-    pub(super) fn noise(&self, per_cell: f64) -> f64 {
+    pub fn noise(&self, per_cell: f64) -> f64 {
         let of_basis = |k: f64| transform(self.basis, 0.5 / self.half_size, k);
         let longest = TAU / (2 * FREE) as f64;
         let answers = (1..=WAVES).map(|k| {

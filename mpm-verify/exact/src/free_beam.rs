@@ -1,19 +1,20 @@
 //! The first frequency of a free beam after Timoshenko, and the bending stiffness that cells and particles make of it.
 
-use crate::scheme::BasisName;
+use mpm_solvers::scheme::BasisName;
 
-/// Half the length of the beam and its depth (m).
-pub(super) const HALF: f64 = 1.0;
-pub(super) const DEPTH: f64 = 0.1;
+/// Half the length of the beam (m).
+pub const HALF: f64 = 1.0;
+/// Depth of the beam (m).
+pub const DEPTH: f64 = 0.1;
 /// Wave number of the mode of a slender beam (1/m): half of 4.730, its whole length being 2 m.
-pub(super) const SLENDER: f64 = 2.365;
+pub const SLENDER: f64 = 2.365;
 /// Factor by which a frequency is raised until it is past the first one, and halvings then.
 const FACTOR: f64 = 1.05;
 const HALVINGS: usize = 100;
 
 /// A beam of unit breadth in plane strain.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Beam {
+pub struct Beam {
     /// E I (N m), κ G A (N), ρ A (kg/m), ρ I (kg m).
     bending: f64,
     shear: f64,
@@ -23,9 +24,9 @@ pub(super) struct Beam {
 
 /// The first symmetric mode: w = a cosh αx + b cos βx and the turn of the sections.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mode {
+pub struct Mode {
     /// Angular frequency (rad/s).
-    pub(super) frequency: f64,
+    pub frequency: f64,
     alpha: f64,
     beta: f64,
     /// Ω = ρ A ω²/(κ G A), and a over b.
@@ -35,7 +36,7 @@ pub(super) struct Mode {
 
 impl Beam {
     /// Beam of Young's modulus (Pa), Poisson's ratio and density (kg/m³), with its bending stiffness times `factor`.
-    pub(super) fn new(young: f64, ratio: f64, density: f64, factor: f64) -> Self {
+    pub fn new(young: f64, ratio: f64, density: f64, factor: f64) -> Self {
         let plane = ratio / (1.0 - ratio);
         // Cowper's coefficient of a rectangle.
         let coefficient = 10.0 * (1.0 + plane) / (12.0 + 11.0 * plane);
@@ -67,7 +68,7 @@ impl Beam {
     }
 
     /// The first mode that is symmetric about the middle.
-    pub(super) fn first(&self) -> Mode {
+    pub fn first(&self) -> Mode {
         let mut high = 0.1 * (self.bending / self.mass).sqrt() / (HALF * HALF);
         let mut low = 0.0;
         while self.condition(high) > 0.0 {
@@ -90,12 +91,12 @@ impl Beam {
 
 impl Mode {
     /// Deflection at `x` (m) from the middle.
-    pub(super) fn deflection(&self, x: f64) -> f64 {
+    pub fn deflection(&self, x: f64) -> f64 {
         self.ratio * (self.alpha * x).cosh() + (self.beta * x).cos()
     }
 
     /// Turn of the section there (1/m).
-    pub(super) fn turn(&self, x: f64) -> f64 {
+    pub fn turn(&self, x: f64) -> f64 {
         let grown = (self.alpha + self.omega / self.alpha) * (self.alpha * x).sinh();
         self.ratio * grown + (self.omega / self.beta - self.beta) * (self.beta * x).sin()
     }
@@ -107,7 +108,7 @@ fn plane_modulus(young: f64, ratio: f64) -> f64 {
 
 /// Bending stiffness over the exact one of `cells` over the depth with `per_cell` particles a direction, with GIMP a bound:
 /// see `docs/thin.md`. None where it is not known.
-pub(super) fn stiffness(basis: BasisName, ratio: f64, cells: f64, per_cell: f64, shifted: bool) -> Option<f64> {
+pub fn stiffness(basis: BasisName, ratio: f64, cells: f64, per_cell: f64, shifted: bool) -> Option<f64> {
     let seen = 1.0 - 1.0 / (per_cell * per_cell);
     match basis {
         BasisName::Bspline2 | BasisName::Bspline3 => Some(1.0 - 1.0 / (cells * per_cell).powi(2)),

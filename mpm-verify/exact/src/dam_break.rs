@@ -3,18 +3,20 @@
 use serde::Deserialize;
 use std::sync::OnceLock;
 
-const SOLUTION: &str = include_str!("../../../references/dam-break.json");
+const SOLUTION: &str = include_str!("../references/dam-break.json");
 
 /// Acceleration of gravity g (m/s²).
-pub(super) const GRAVITY: f64 = 9.81;
-/// Depth H and length (m) of the reservoir, length (m) of the tank.
-pub(super) const DEPTH: f64 = 2.0;
-pub(super) const LENGTH: f64 = 4.0;
-pub(super) const TANK: f64 = 6.0;
+pub const GRAVITY: f64 = 9.81;
+/// Depth H (m) of the reservoir.
+pub const DEPTH: f64 = 2.0;
+/// Length (m) of the reservoir.
+pub const LENGTH: f64 = 4.0;
+/// Length (m) of the tank.
+pub const TANK: f64 = 6.0;
 
 /// Times t√(g/H) over which the front is held against the inviscid one: before them it has moved by less than 0.07 H,
 /// after them the tank's end is near.
-pub(super) const COMPARED: (f64, f64) = (0.2, 0.9);
+pub const COMPARED: (f64, f64) = (0.2, 0.9);
 
 #[derive(Debug, Deserialize)]
 struct Solution {
@@ -38,7 +40,9 @@ fn solution() -> &'static Solution {
     })
 }
 
-pub(super) fn describe() -> Vec<String> {
+/// The references in words.
+#[must_use]
+pub fn describe() -> Vec<String> {
     let s = solution();
     vec![
         "Hydrostatics: base pressure ρ g H, force on the gate ½ ρ g H² per metre, weight of the water.".to_owned(),
@@ -48,41 +52,41 @@ pub(super) fn describe() -> Vec<String> {
 }
 
 /// The time H/√(gH) (s).
-pub(super) fn time_scale() -> f64 {
+pub fn time_scale() -> f64 {
     (DEPTH / GRAVITY).sqrt()
 }
 
 /// Twice the speed (m/s) of long waves: that of Ritter's front.
-pub(super) fn greatest_speed() -> f64 {
+pub fn greatest_speed() -> f64 {
     2.0 * (GRAVITY * DEPTH).sqrt()
 }
 
 /// Energy (J/m, about the floor) of water of a density at the start, and of the same at rest in the tank.
-pub(super) fn energies(density: f64) -> (f64, f64) {
+pub fn energies(density: f64) -> (f64, f64) {
     let weight = density * GRAVITY * LENGTH * DEPTH;
     (0.5 * weight * DEPTH, 0.5 * weight * DEPTH * LENGTH / TANK)
 }
 
 /// Elastic energy (J/m) of water at rest behind the gate: p²/(2K) summed over it.
-pub(super) fn elastic_energy(density: f64, bulk_modulus: f64) -> f64 {
+pub fn elastic_energy(density: f64, bulk_modulus: f64) -> f64 {
     let base = density * GRAVITY * DEPTH;
     base * base / (6.0 * bulk_modulus) * LENGTH * DEPTH
 }
 
 /// Uncertainty (m) of [`front`].
-pub(super) fn uncertainty() -> f64 {
+pub fn uncertainty() -> f64 {
     DEPTH * solution().uncertainty
 }
 
 /// Place (m) of the inviscid front at `time` (s); `None` outside of the solution's times.
-pub(super) fn front(time: f64) -> Option<f64> {
+pub fn front(time: f64) -> Option<f64> {
     let s = solution();
     let advance = interpolate(&s.time, &s.front, time / time_scale())?;
     Some(LENGTH + DEPTH * advance)
 }
 
 /// When (s) the inviscid front passes `x` (m), and its speed (m/s) then.
-pub(super) fn passage(x: f64) -> Option<(f64, f64)> {
+pub fn passage(x: f64) -> Option<(f64, f64)> {
     let s = solution();
     let time = interpolate(&s.front, &s.time, (x - LENGTH) / DEPTH)?;
     let speed = interpolate(&s.time, &s.speed, time)?;
@@ -98,7 +102,7 @@ fn interpolate(xs: &[f64], ys: &[f64], x: f64) -> Option<f64> {
 }
 
 /// The inviscid front as points t (s), x (m).
-pub(super) fn front_curve() -> Vec<(f64, f64)> {
+pub fn front_curve() -> Vec<(f64, f64)> {
     let s = solution();
     let columns = s.time.iter().zip(&s.front);
     columns.map(|(t, x)| (t * time_scale(), LENGTH + DEPTH * x)).collect()

@@ -3,20 +3,20 @@
 use serde::{Deserialize, Serialize};
 use std::sync::LazyLock;
 
-const TABLE: &str = include_str!("../../../references/consolidation.csv");
+const TABLE: &str = include_str!("../references/consolidation.csv");
 
 /// T from which on errors are taken.
 const FROM: f64 = 0.1;
 
 /// A solution at a time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct At {
+pub struct At {
     /// T = c_v t/H².
-    pub(super) t: f64,
+    pub t: f64,
     /// Settlement over H.
-    pub(super) settlement: f64,
+    pub settlement: f64,
     /// Pressure at the base over the load.
-    pub(super) base: f64,
+    pub base: f64,
 }
 
 struct Row {
@@ -39,7 +39,7 @@ static ROWS: LazyLock<Vec<Row>> = LazyLock::new(|| {
 
 /// The solution of a load (over M₀) at its tabulated times from T = 0.1 on: the exact one, or exact in space alone for
 /// backward Euler's steps, `steps` to each of the 125. Empty for a load without a reference.
-pub(super) fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
+pub fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
     let refine = steps.unwrap_or(0.0);
     let own = |r: &&Row| r.load == load && r.refine == refine && r.at.t >= FROM;
     ROWS.iter().filter(own).map(|r| r.at).collect()
@@ -49,13 +49,13 @@ pub(super) fn solution(load: f64, steps: Option<f64>) -> Vec<At> {
 const LAYERS: [(f64, f64); 3] = [(0.003, 39.76), (0.3, 0.2986), (1.0, 0.0634)];
 
 /// The layer of a load, if it is known.
-pub(super) fn layer(load: f64) -> Option<f64> {
+pub fn layer(load: f64) -> Option<f64> {
     let known = LAYERS.iter().find(|(of, _)| *of == load);
     known.map(|(_, height)| *height)
 }
 
 /// The value of `seen` at the time `t`: the cubic through the two before and the two after it.
-pub(super) fn between(seen: &[At], t: f64) -> Option<At> {
+pub fn between(seen: &[At], t: f64) -> Option<At> {
     let next = seen.partition_point(|at| at.t < t);
     let middle = next.clamp(2, seen.len().checked_sub(2)?.max(2));
     let near = seen.get(middle - 2..middle + 2)?;
@@ -123,7 +123,7 @@ mod tests {
         for at in solution(0.003, None) {
             let of_part = |k: u32| {
                 let begun = ramp * (f64::from(k) + 0.5) / f64::from(parts);
-                crate::exact::terzaghi::settlement(at.t - begun) / f64::from(parts)
+                crate::terzaghi::settlement(at.t - begun) / f64::from(parts)
             };
             let linear = 0.003 * (0..parts).map(of_part).sum::<f64>();
             assert!((at.settlement / linear - 1.0).abs() < 0.02, "{at:?} {linear}");

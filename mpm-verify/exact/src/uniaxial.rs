@@ -8,11 +8,11 @@ const HALVINGS: usize = 80;
 /// A Hencky body in uniaxial strain: Kirchhoff's stress along it is M v up to the logarithmic strain of yield, and with J2
 /// plasticity it rises by K beyond, as √(3/2) κ of it stays.
 #[derive(Clone, Copy)]
-pub(super) struct Body {
+pub struct Body {
     /// Logarithmic strain of yield; infinite of an elastic body.
-    pub(super) yields: f64,
+    pub yields: f64,
     /// K/M.
-    pub(super) bulk: f64,
+    pub bulk: f64,
 }
 
 impl Body {
@@ -25,7 +25,7 @@ impl Body {
 
     /// The stretch at which the nominal stress, over the modulus M, is `stress`: the one from which a greater stress takes on
     /// to a greater stretch, below e. None of a body beyond 1/e. A body that yields is pressed.
-    pub(super) fn stretch(&self, stress: f64) -> Option<f64> {
+    pub fn stretch(&self, stress: f64) -> Option<f64> {
         let e = std::f64::consts::E;
         if stress > 1.0 / e {
             return None;
@@ -45,16 +45,16 @@ impl Body {
 }
 
 /// A column whose nominal stress over M grows from zero at its free end to `end` at the other, along its height of one.
-pub(super) struct Column {
+pub struct Column {
     /// Displacements away from the held end, from the free end on.
     displacement: Vec<f64>,
     /// The greatest |dλ/dX|.
-    pub(super) curvature: f64,
+    pub curvature: f64,
 }
 
 impl Column {
     /// None if there is no equilibrium.
-    pub(super) fn new(of: Body, end: f64) -> Option<Self> {
+    pub fn new(of: Body, end: f64) -> Option<Self> {
         let step = 1.0 / INTERVALS as f64;
         let stretches: Option<Vec<f64>> = (0..=INTERVALS).map(|k| of.stretch(end * k as f64 * step)).collect();
         let stretches = stretches?;
@@ -68,7 +68,7 @@ impl Column {
     }
 
     /// Displacement at a distance from the free end, away from the held one, over the height.
-    pub(super) fn at(&self, x: f64) -> f64 {
+    pub fn at(&self, x: f64) -> f64 {
         let place = x.clamp(0.0, 1.0) * INTERVALS as f64;
         let k = (place as usize).min(INTERVALS - 1);
         let share = place - k as f64;

@@ -1,9 +1,9 @@
 //! The largest step by linear analysis: `docs/modes.md`, in one to three dimensions and for every transfer.
 
-use crate::cases::parameters::UNSEEN;
-use crate::scheme::{BasisName, Explicit, RemedyName, TransferName};
+use crate::common::UNSEEN;
 use mpm_core::Axis;
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_solvers::scheme::{BasisName, Explicit, RemedyName, TransferName};
 use nalgebra::{Complex, DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -16,20 +16,23 @@ const NEARBY: f64 = 1e-6;
 const ROUNDING: f64 = 1e-9;
 
 /// A lattice of particles, the same in every cell.
-pub(super) struct Setting {
-    pub(super) scheme: Explicit,
-    /// Places of the particles of a cell along each axis, from 0 to 1, and half their size, in cells.
-    pub(super) places: Vec<Vec<f64>>,
-    pub(super) half_size: f64,
+pub struct Setting {
+    /// Basis, remedy and transfer.
+    pub scheme: Explicit,
+    /// Positions of the particles of a cell along each axis (cells), from 0 to 1.
+    pub places: Vec<Vec<f64>>,
+    /// Half size of the particles (cells).
+    pub half_size: f64,
     /// Cells of a period.
-    pub(super) period: usize,
-    /// Over the modulus ρ₀ c² that CFL numbers are of: stiffness along an axis, shear modulus, and J σ of a mean
-    /// stress (the first and the last other than 1 and 0 in one dimension alone).
-    pub(super) axial: f64,
-    pub(super) shear: f64,
-    pub(super) mean_stress: f64,
+    pub period: usize,
+    /// Stiffness along an axis over the modulus ρ₀ c² of the CFL number; other than 1 in one dimension alone.
+    pub axial: f64,
+    /// Shear modulus over ρ₀ c².
+    pub shear: f64,
+    /// J σ of a mean stress over ρ₀ c²; other than 0 in one dimension alone.
+    pub mean_stress: f64,
     /// Coefficient of the linear artificial viscosity.
-    pub(super) viscosity: f64,
+    pub viscosity: f64,
 }
 
 /// Values of a nodal wave at a particle, along an axis.
@@ -172,7 +175,7 @@ impl Setting {
     /// The largest CFL number (zero if every one is unstable) and the fastest growth per step and CFL number of a wave
     /// fed by a mean stress. `None` where the analysis is not made: `fbar-recursive` in more than one dimension,
     /// `fbar-recursive` and `fbar-consistent` under a mean stress, a remedy with a viscosity.
-    pub(super) fn predicted(&self) -> Option<[f64; 2]> {
+    pub fn predicted(&self) -> Option<[f64; 2]> {
         let dimension = self.places.len();
         match self.scheme.remedy {
             RemedyName::FbarRecursive if dimension > 1 || self.mean_stress != 0.0 => return None,
@@ -208,7 +211,7 @@ impl Setting {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, None};
+    use mpm_solvers::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, None};
 
     /// The table of `docs/modes.md`, two particles a cell, within its two decimals and a period of 48 cells.
     #[test]
