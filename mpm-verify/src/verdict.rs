@@ -69,6 +69,17 @@ impl Verdict {
         self.kind == Kind::Wanted
     }
 
+    /// Share of its tolerance, or of its bound, that a value uses.
+    #[must_use]
+    pub fn used(&self) -> Option<f64> {
+        let (value, tolerance) = (self.value?, self.tolerance.filter(|t| *t > 0.0)?);
+        match self.reference {
+            Some(reference) => Some((value - reference).abs() / tolerance),
+            None if value > tolerance => Some(tolerance / value),
+            None => Some(value.max(0.0) / tolerance),
+        }
+    }
+
     /// Whether it may decide the outcome of a run.
     #[must_use]
     pub fn decides(&self) -> bool {

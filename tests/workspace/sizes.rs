@@ -5,8 +5,8 @@ use std::path::Path;
 
 /// Part, its folder, lines of its tests included or not, and most lines.
 const BOUNDS: [(&str, &str, bool, usize); 8] = [
-    ("the harness without tests", "mpm-verify/src", false, 45_700),
-    ("its cases without tests", "mpm-verify/src/cases", false, 26_900),
+    ("the harness without tests", "mpm-verify/src", false, 46_350),
+    ("its cases without tests", "mpm-verify/src/cases", false, 27_000),
     ("its reports without tests", "mpm-verify/src/report", false, 5_450),
     ("its drawing without tests", "mpm-verify/src/draw", false, 2_600),
     ("terzaghi", "mpm-verify/src/cases/terzaghi", true, 500),

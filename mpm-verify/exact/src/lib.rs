@@ -28,6 +28,7 @@ pub mod standing_wave;
 pub mod stretched_lattice;
 pub mod swirl;
 pub mod terzaghi;
+pub mod transfers;
 pub mod twist;
 pub mod uniaxial;
 pub mod vibrating_bar;

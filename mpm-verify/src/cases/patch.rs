@@ -4,6 +4,7 @@
 
 use super::family::{implicit, levels, pairs};
 use super::parameters as common;
+use crate::exact::transfers::{filtered, second_moment};
 use crate::prelude::*;
 use crate::statistics::rms;
 use mpm_core::material::NeoHookean;
@@ -131,50 +132,6 @@ impl Setup<Moved> {
         SMatrix::from_fn(|i, j| self.strain * GRADIENT[i][j])
     }
 
-    /// Functions at a place on an axis (cells from the wall), from that of their first node on.
-    fn functions(&self, place: f64) -> (usize, [f64; 3]) {
-        let s = place.fract();
-        let functions = match self.basis() {
-            Bspline2 if place < 1.0 => [(1.0 - s).powi(2), s * (2.0 - 1.5 * s), 0.5 * s * s],
-            Bspline2 => [0.5 * (1.0 - s).powi(2), 0.5 + s - s * s, 0.5 * s * s],
-            _ => [1.0 - s, s, 0.0],
-        };
-        (place as usize, functions)
-    }
-
-    /// What so many steps of xpic2 leave of the places (m) of a line of particles that starts at the wall, as velocities.
-    fn filtered(&self, steps: u64) -> Vec<f64> {
-        let per_cell = self.ppc_per_direction as f64;
-        let count = (SIDE / self.h * per_cell).round() as usize;
-        let places: Vec<f64> = (0..count).map(|k| (k as f64 + 0.5) / per_cell).collect();
-        let to_nodes = |values: &[f64]| {
-            let mut sums = vec![[0.0; 2]; count + 3];
-            for (place, value) in places.iter().zip(values) {
-                let (first, functions) = self.functions(*place);
-                for (sum, w) in sums[first..].iter_mut().zip(functions) {
-                    *sum = [sum[0] + w, sum[1] + w * value];
-                }
-            }
-            let mean = |[mass, sum]: [f64; 2]| if mass > 0.0 { sum / mass } else { 0.0 };
-            sums.into_iter().map(mean).collect::<Vec<f64>>()
-        };
-        let from_nodes = |nodes: &[f64]| {
-            let value = |place: &f64| {
-                let (first, functions) = self.functions(*place);
-                nodes[first..].iter().zip(functions).map(|(v, w)| v * w).sum::<f64>()
-            };
-            places.iter().map(value).collect::<Vec<f64>>()
-        };
-        let mut values: Vec<f64> = places.iter().map(|place| place * self.h).collect();
-        for _ in 0..steps {
-            let once = to_nodes(&values);
-            let twice = to_nodes(&from_nodes(&once));
-            let corrected: Vec<f64> = once.iter().zip(&twice).map(|(once, twice)| 2.0 * once - twice).collect();
-            values = from_nodes(&corrected);
-        }
-        values
-    }
-
     /// Largest way of a particle, in cells.
     fn way(&self) -> f64 {
         let largest = GRADIENT.iter().map(|row| row.iter().sum::<f64>()).fold(0.0, f64::max);
@@ -237,17 +194,6 @@ struct Moving {
 }
 
 impl Moving {
-    /// Second moment (m²) of the functions at a place on an axis from the wall: closed forms, docs/patch.md.
-    fn second_moment(&self, x: f64) -> f64 {
-        let place = x / self.setup.h;
-        let share = match self.setup.basis() {
-            Bspline2 if place < 1.0 => 0.25 * (1.0 - (1.0 - place).powi(2)),
-            Bspline2 => 0.25,
-            _ => place.fract() * (1.0 - place.fract()),
-        };
-        share * self.setup.h * self.setup.h
-    }
-
     /// Exact displacement (m) of a material point, and the velocity (m/s) of the time `lag` (s) earlier.
     fn exact<const D: usize>(&self, x: &[f64; D], t: f64, lag: f64) -> [[f64; D]; 2] {
         let (gradient, [speed, pull]) = (self.setup.gradient::<D>(), self.setup.ways::<D>());
@@ -272,7 +218,13 @@ impl Moving {
         let transfers = [TransferName::Apic, TransferName::Xpic2];
         let everywhere = transfers.contains(&self.setup.transfer()) || self.setup.strain == 0.0;
         let filters = self.setup.transfer() == TransferName::Xpic2;
-        let line = filters.then(|| self.setup.filtered(run.work().steps));
+        let line = filters.then(|| {
+            filtered(
+                self.setup.basis(),
+                [SIDE / self.setup.h, self.setup.ppc_per_direction as f64, self.setup.h],
+                run.work().steps,
+            )
+        });
         let size = self.setup.h / self.setup.ppc_per_direction as f64;
         let p = run.particles();
         let mut pairs: [Vec<(f64, f64)>; 3] = Default::default();
@@ -346,7 +298,9 @@ where
         }
         if self.setup.is_affine() {
             let rate = self.setup.gradient::<D>() / DURATION;
-            let moment = |x: &[f64; D]| SMatrix::from_fn(|i, j| rate[(i, j)] * self.second_moment(x[j]));
+            let moment = |x: &[f64; D]| {
+                SMatrix::from_fn(|i, j| rate[(i, j)] * second_moment(self.setup.basis(), x[j] / h) * h * h)
+            };
             particles.affine = particles.position.iter().map(moment).collect();
         }
         let pull = self.setup.ways::<D>()[0].map(|way| 2.0 * way / DURATION.powi(2));

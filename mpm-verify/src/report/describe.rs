@@ -144,10 +144,9 @@ pub fn verdict_line(v: &Verdict) -> String {
     };
     let line = wrapped(&line, &format!("{name}  "), &" ".repeat(18));
     let rest = line.strip_prefix(&name).unwrap_or(&line);
-    let why = match v.outcome {
-        Outcome::Right => String::new(),
-        _ if v.is_wanted() => String::new(),
-        _ => wrapped(&v.source, &" ".repeat(18), &" ".repeat(18)),
+    let why = match v.outcome == Outcome::Right || v.is_wanted() {
+        true => String::new(),
+        false => wrapped(&v.source, &" ".repeat(18), &" ".repeat(18)),
     };
     format!("{}{rest}{why}", painted(v.outcome, &name))
 }

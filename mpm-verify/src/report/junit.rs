@@ -26,22 +26,13 @@ pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
 pub fn write_scored(scored: &Scored, gate: &Gate, file: &Path) -> Result<(), Error> {
     let record = &scored.record;
     let class = format!("{}.{}.{}", record.case, scored.manifest.code.name.0, record.level);
-    let test = |verdict: &Verdict| {
-        let status = match gate.stops(scored, verdict) {
-            true => failure(outcome(verdict.outcome), verdict.source.clone()),
-            false => status(verdict),
-        };
-        let mut test = TestCase::new(name(verdict), status);
-        test.set_classname(&*class);
-        test
+    let judged = |verdict: &Verdict| match gate.stops(scored, verdict) {
+        true => test(&class, name(verdict), failure(outcome(verdict.outcome), &verdict.source)),
+        false => test(&class, name(verdict), status(verdict)),
     };
-    let lacking = |name: &str| {
-        let mut test = TestCase::new(name, failure("not judged", INAPPLICABLE.to_owned()));
-        test.set_classname(&*class);
-        test
-    };
+    let lacking = |name: &str| test(&class, name.to_owned(), failure("not judged", INAPPLICABLE));
     let mut suite = TestSuite::new(&*record.case);
-    suite.add_test_cases(record.verdicts.iter().map(test));
+    suite.add_test_cases(record.verdicts.iter().map(judged));
     suite.add_test_cases(gate.lacking(scored).map(lacking));
     let mut report = Report::new("mpm-verify score");
     report.add_test_suite(suite);
@@ -60,11 +51,8 @@ fn suite(study: &CaseStudy) -> TestSuite {
     for record in &study.records {
         suite.add_test_cases(of_run(record));
     }
-    for verdict in &study.verdicts {
-        let mut test = TestCase::new(name(verdict), status(verdict));
-        test.set_classname(format!("{}.runs-together", study.case));
-        suite.add_test_case(test);
-    }
+    let class = format!("{}.runs-together", study.case);
+    suite.add_test_cases(study.verdicts.iter().map(|v| test(&class, name(v), status(v))));
     suite
 }
 
@@ -75,18 +63,17 @@ fn of_run(record: &Record) -> Vec<TestCase> {
         class.push('+');
         class.push_str(assignment);
     }
-    let test = |(k, verdict): (usize, &Verdict)| {
+    let timed = |(k, verdict): (usize, &Verdict)| {
         let status = match record.error.as_ref().filter(|_| record.broke_down()) {
             Some(failure) if verdict.failed() => broke_down(failure),
             _ => status(verdict),
         };
-        let mut test = TestCase::new(name(verdict), status);
-        test.set_classname(&*class);
+        let mut test = test(&class, name(verdict), status);
         let seconds = if k == 0 { record.time.cpu_s } else { 0.0 };
         test.set_time(Duration::try_from_secs_f64(seconds).unwrap_or_default());
         test
     };
-    record.verdicts.iter().enumerate().map(test).collect()
+    record.verdicts.iter().enumerate().map(timed).collect()
 }
 
 /// A check may judge several metrics of a run.
@@ -110,10 +97,16 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
     status
 }
 
-fn failure(of: &str, told: String) -> TestCaseStatus {
+fn failure(of: &str, why: &str) -> TestCaseStatus {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
-    status.set_type(of).set_message(told);
+    status.set_type(of).set_message(why);
     status
+}
+
+fn test(class: &str, name: String, status: TestCaseStatus) -> TestCase {
+    let mut test = TestCase::new(name, status);
+    test.set_classname(class);
+    test
 }
 
 fn broke_down(failure: &Failure) -> TestCaseStatus {

@@ -168,17 +168,13 @@ pub fn write(scored: &Scored, ours: &Ours, gate: &Gate, folder: &Path) -> Result
     let record = &scored.record;
     let mut document = Document::new(inert(&title(scored)));
     document.paragraph(sentence(record) + ".");
-    if let Some(refusal) = gate.refusal(scored) {
-        document.paragraph(refusal + ".");
-    }
+    gate.refusal(scored).into_iter().for_each(|refusal| document.paragraph(refusal + "."));
     let mut beside = table(scored, ours);
     if let Some(own) = beside.rows.first_mut().and_then(|row| row.first_mut()) {
         *own = inert(own);
     }
     document.table("", beside);
-    if let Some(absent) = &ours.absent {
-        document.paragraph(&**absent);
-    }
+    ours.absent.iter().for_each(|absent| document.paragraph(&**absent));
     document.section("", "Verdicts");
     let verdicts = record.verdicts.iter().map(|v| (None, v));
     document.table("", verdicts::table(verdicts));

@@ -42,41 +42,26 @@ enum Source {
 }
 
 use Source::{Bench, Rows, Runs};
-use Tier::{Nightly, Pr};
 
-/// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG.
-const SHOWN: [(&str, &str, Source); 25] = [
-    ("bench", "scaling.svg", Bench),
-    ("cantilever", "beams.png", Runs(Nightly)),
-    ("cantilever", "figures.svg", Runs(Nightly)),
-    ("column", "creep.svg", Runs(Pr)),
-    ("consolidation", "settlement.svg", Runs(Pr)),
-    ("cook", "convergence.svg", Rows),
-    ("cook", "mean-stress-gimp.png", Runs(Pr)),
-    ("dam-break", "snapshots-gimp.png", Runs(Nightly)),
-    ("discs", "energy.svg", Runs(Nightly)),
-    ("excavation", "plastic-strain.png", Runs(Nightly)),
-    ("footing", "load-settlement.svg", Runs(Nightly)),
-    ("footing", "velocity-gimp.png", Runs(Nightly)),
-    ("landslide", "plastic-strain-gimp.png", Runs(Nightly)),
-    ("landslide-2d", "run-out.svg", Runs(Nightly)),
-    ("mandel", "centre-pressure.svg", Runs(Nightly)),
-    ("mms-vortex-box", "sweep-poisson_ratio.svg", Rows),
-    ("results", "hard-cases.svg", Rows),
-    ("results", "manufactured.svg", Rows),
-    ("results", "over-cells.svg", Rows),
-    ("results", "solvers.svg", Rows),
-    ("results", "speed-against-error.svg", Rows),
-    ("slope-stability", "work-precision.svg", Rows),
-    ("standing-wave", "energy.svg", Runs(Nightly)),
-    ("strip", "pressure.png", Runs(Nightly)),
-    ("terzaghi", "figures.svg", Runs(Nightly)),
-];
+/// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG. The third cell
+/// is `rows`, `bench` or the least tier.
+const SHOWN: &str = include_str!("../../assets/pictures.csv");
+
+fn shown() -> impl Iterator<Item = (&'static str, &'static str, Source)> {
+    let source = |name| match name {
+        "rows" => Some(Rows),
+        "bench" => Some(Bench),
+        tier => Tier::parse(tier).ok().map(Runs),
+    };
+    SHOWN.lines().skip(1).filter_map(move |line| {
+        let mut cells = line.split(',');
+        Some((cells.next()?, cells.next()?, source(cells.next()?)?))
+    })
+}
 
 /// The files of all pictures, below the repository.
 pub fn files() -> impl Iterator<Item = PathBuf> {
-    let file = |(folder, file, _): &(&str, &str, _)| Path::new(PLACE).join(folder).join(file);
-    SHOWN.iter().map(file)
+    shown().map(|(folder, file, _)| Path::new(PLACE).join(folder).join(file))
 }
 
 /// Draws the pictures of the repository at `root` anew: from its rows and its bench, and those that the finished runs in
@@ -97,7 +82,7 @@ pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
         _ => Some(draw_runs(folders, drawn)?),
     };
     let mut told = String::new();
-    for (folder, file, source) in SHOWN {
+    for (folder, file, source) in shown() {
         let (from, to) = (drawn.join(folder), root.join(PLACE).join(folder));
         let suffices = match source {
             Rows | Bench => true,
@@ -150,7 +135,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
 }
 
 fn drawn_of(case: &str, from: Source) -> bool {
-    SHOWN.iter().any(|(folder, _, source)| *folder == case && *source == from)
+    shown().any(|(folder, _, source)| folder == case && source == from)
 }
 
 /// Draws what the cases draw of their runs; returns the runs' tier.
@@ -222,7 +207,7 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
         let told = draw(root.path(), &[]).unwrap();
         let (drawn, left): (Vec<&str>, Vec<&str>) = told.lines().partition(|line| line.ends_with(": drawn"));
         assert_eq!(drawn, ["cook/convergence.svg: drawn"], "{told}");
-        assert_eq!(left.len(), SHOWN.len() - 1);
+        assert_eq!(left.len(), shown().count() - 1);
         assert!(told.contains("column/creep.svg: left, for want of runs of tier pr"));
         assert!(told.contains("bench/scaling.svg: left, for want of a bench"));
         let svg = fs::read_to_string(shown("cook/convergence.svg")).unwrap();

@@ -6,10 +6,10 @@ use crate::case::Case;
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::Record;
-use crate::study::judge::outcome_of_run;
+use crate::study::judge;
 use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Sheet;
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::verdict::{Kind, Verdict};
 use std::path::Path;
 
 const HEAD: [&str; 8] = ["outcome", "kind", "check", "metric", "value", "reference", "tolerance", "source"];
@@ -98,42 +98,17 @@ pub(super) fn broken(summary: &Summary) -> impl Iterator<Item = (&CaseStudy, &Re
     })
 }
 
-/// The wanted value of a right run that uses most of its tolerance.
-pub(super) struct Tightest<'a> {
-    /// Distance from the reference and tolerance, or value and bound, with units.
-    pub(super) margin: String,
-    pub(super) metric: &'a str,
-    pub(super) run: String,
-}
-
-/// Share of its tolerance, or of its bound, that a truth uses.
-fn used(v: &Verdict) -> Option<f64> {
-    let (value, tolerance) = (v.value?, v.tolerance.filter(|t| *t > 0.0)?);
-    match v.reference {
-        Some(reference) => Some((value - reference).abs() / tolerance),
-        None if value > tolerance => Some(tolerance / value),
-        None => Some(value.max(0.0) / tolerance),
-    }
-}
-
-/// The verdict with the tightest margin among those that judge what a case is run for, of runs that are right.
-pub(super) fn tightest<'a>(case: &Case, study: &'a CaseStudy) -> Option<Tightest<'a>> {
-    let wanted = |v: &&Verdict| {
-        let judges = case.wanted.iter().any(|w| w.is_judged_by(&v.check));
-        judges && v.kind == Kind::Truth && v.outcome == Outcome::Right
-    };
-    let right = study.records.iter().filter(|r| outcome_of_run(r) == Outcome::Right);
-    let judged = right.flat_map(|r| r.verdicts.iter().filter(wanted).filter_map(move |v| Some((r, v, used(v)?))));
-    let (run, v, _) = judged.max_by(|a, b| a.2.total_cmp(&b.2))?;
+/// The tightest margin of a wanted quantity: distance and tolerance or value and bound, with units; the metric; and the run.
+pub(super) fn tightest<'a>(case: &Case, study: &'a CaseStudy) -> Option<(String, &'a str, String)> {
+    let (run, v) = judge::tightest(case, &study.records)?;
     let unit = case.metrics.iter().find(|m| m.name == v.metric).map_or("-", |m| m.unit);
-    let [value, tolerance] = [v.value, v.tolerance].map(|number| quantity(number, unit));
-    let margin = match v.reference.zip(v.value) {
-        Some((reference, value)) => {
-            format!("{} off, ± {tolerance} allowed", quantity(Some((value - reference).abs()), unit))
-        }
-        None => format!("{value}, bound {tolerance}"),
+    let [distance, tolerance] =
+        [v.value.map(|x| (x - v.reference.unwrap_or(0.0)).abs()), v.tolerance].map(|x| quantity(x, unit));
+    let margin = match v.reference {
+        Some(_) => format!("{distance} off, ± {tolerance} allowed"),
+        None => format!("{}, bound {tolerance}", quantity(v.value, unit)),
     };
-    Some(Tightest { margin, metric: &v.metric, run: name(run) })
+    Some((margin, &v.metric, name(run)))
 }
 
 #[cfg(test)]
@@ -156,6 +131,6 @@ mod tests {
         ];
         let study = CaseStudy::new("cook", runs);
         let found = tightest(cases::find("cook").unwrap(), &study).unwrap();
-        assert!(found.run.contains("h2") && found.margin.contains("0.05"));
+        assert!(found.2.contains("h2") && found.0.contains("0.05"));
     }
 }

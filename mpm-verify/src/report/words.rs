@@ -66,12 +66,12 @@ pub(super) fn sentence(record: &Record) -> String {
     let found = outcome_of_run(record);
     let checks = |outcome: Outcome| {
         let own = record.verdicts.iter().filter(move |v| v.outcome == outcome && v.kind != Kind::Wanted);
-        let names: Vec<&str> = distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check));
-        names
+        distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check))
     };
     let wanted = |outcome: Outcome| {
-        let own = record.verdicts.iter().filter(move |v| v.kind == Kind::Wanted && v.outcome == outcome);
-        own.map(|v| &*v.check).collect::<Vec<&str>>()
+        let own = record.verdicts.iter().filter(|v| v.is_wanted() && v.outcome == outcome);
+        let names: Vec<&str> = own.map(|v| &*v.check).collect();
+        if names.is_empty() { String::new() } else { names.join(", ") + "; " }
     };
     let right = match checks(Outcome::Right).len() {
         0 => "no other check holds".to_owned(),
@@ -82,20 +82,13 @@ pub(super) fn sentence(record: &Record) -> String {
         (_, Some(e)) if record.broke_down() || broke_as_known(record) => {
             format!("it broke down at {} s", number(Some(e.time)))
         }
-        (Outcome::Right, _) => {
-            let right = match wanted(Outcome::Right) {
-                names if names.is_empty() => right,
-                names => format!("{}; {right}", names.join(", ")),
-            };
-            match checks(Outcome::NotJudged).len() {
-                0 => right,
-                n => format!("{right}, {n} not judged"),
-            }
-        }
-        (Outcome::NotJudged, _) => match (wanted(Outcome::NotJudged), checks(Outcome::Right).len()) {
-            (names, 0) if names.is_empty() => "no check against the truth applies".to_owned(),
-            (names, 0) => names.join(", "),
-            (names, _) => format!("{}; laws hold, {right}", names.join(", ")),
+        (Outcome::Right, _) => match checks(Outcome::NotJudged).len() {
+            0 => wanted(found) + &right,
+            n => format!("{}{right}, {n} not judged", wanted(found)),
+        },
+        (Outcome::NotJudged, _) => match checks(Outcome::Right).len() {
+            0 => wanted(found) + "no check against the truth applies",
+            _ => format!("{}laws hold, {right}", wanted(found)),
         },
         (found, _) => format!("{}; {right}", checks(found).join(", ")),
     };

@@ -89,6 +89,17 @@ pub fn outcome_of_run(record: &Record) -> Outcome {
     }
 }
 
+/// The verdict with the tightest margin among those that judge wanted quantities, of the `records` that are right.
+pub fn tightest<'a>(case: &Case, records: &'a [Record]) -> Option<(&'a Record, &'a Verdict)> {
+    let wanted = |v: &&Verdict| {
+        let judges = v.kind == Kind::Truth && v.outcome == Outcome::Right;
+        judges && case.wanted.iter().any(|w| w.is_judged_by(&v.check))
+    };
+    let right = records.iter().filter(|r| outcome_of_run(r) == Outcome::Right);
+    let judged = right.flat_map(|r| r.verdicts.iter().filter(wanted).filter_map(move |v| Some((v.used()?, r, v))));
+    judged.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, run, verdict)| (run, verdict))
+}
+
 /// Whether a run broke down as it is known to.
 #[must_use]
 pub fn broke_as_known(record: &Record) -> bool {

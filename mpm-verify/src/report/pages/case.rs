@@ -23,11 +23,11 @@ use std::path::Path;
 pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
     let mut page = Document::new(case.title);
     let mut lead = Text::from(sentence(study));
-    if let Some(best) = tightest(case, study) {
+    if let Some((margin, metric, run)) = tightest(case, study) {
         lead = lead
-            .then(format!(" Tightest margin of a wanted quantity: {} (", best.margin))
-            .then(Text::code(best.metric))
-            .then(format!(", {}).", best.run));
+            .then(format!(" Tightest margin of a wanted quantity: {margin} ("))
+            .then(Text::code(metric))
+            .then(format!(", {}).", run));
     }
     page.classed("lead", lead);
     page.paragraph(case.description);

@@ -145,10 +145,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         });
         let best = tightest(case, study).map_or_else(
             || Text::from("–"),
-            |b| {
-                let of = Text::mark(format!("{}, {}", b.metric, b.run), "note");
-                Text::from(b.margin).then_below(of)
-            },
+            |(margin, metric, run)| Text::from(margin).then_below(Text::mark(format!("{metric}, {run}"), "note")),
         );
         let together = study.verdicts.iter().filter(|v| v.failed()).count();
         let counts = OUTCOMES.map(|outcome| {
