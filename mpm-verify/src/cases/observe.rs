@@ -194,7 +194,8 @@ pub(super) fn oscillation(places: &[[f64; 2]], field: &[f64], size: f64) -> f64 
 
 /// Values of points less their plane of best fit.
 fn off_plane(points: Vec<([f64; 2], f64)>) -> Vec<f64> {
-    let mean = |of: &dyn Fn(&([f64; 2], f64)) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
+    type Of<'a> = &'a dyn Fn(&([f64; 2], f64)) -> f64;
+    let mean = |of: Of| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let centre = [0, 1].map(|axis| mean(&|p| p.0[axis]));
     let middle = mean(&|p| p.1);
     let moment = |of: &dyn Fn([f64; 2], f64) -> f64| {

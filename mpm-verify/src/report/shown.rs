@@ -207,7 +207,7 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
         let told = draw(root.path(), &[]).unwrap();
         let (drawn, left): (Vec<&str>, Vec<&str>) = told.lines().partition(|line| line.ends_with(": drawn"));
         assert_eq!(drawn, ["cook/convergence.svg: drawn"], "{told}");
-        assert_eq!(left.len(), shown().count() - 1);
+        assert_eq!(left.len(), super::shown().count() - 1);
         assert!(told.contains("column/creep.svg: left, for want of runs of tier pr"));
         assert!(told.contains("bench/scaling.svg: left, for want of a bench"));
         let svg = fs::read_to_string(shown("cook/convergence.svg")).unwrap();

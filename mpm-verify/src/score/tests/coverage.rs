@@ -53,7 +53,8 @@ fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
 
 #[test]
 fn rows_out_of_order_are_refused_with_their_line() {
-    let changes: [fn(&mut Vec<(f64, f64)>); 2] = [|rows| rows.swap(3, 4), |rows| rows[4].0 = rows[3].0];
+    type Change = fn(&mut Vec<(f64, f64)>);
+    let changes: [Change; 2] = [|rows| rows.swap(3, 4), |rows| rows[4].0 = rows[3].0];
     for change in changes {
         let said = front(change).map(|_| ()).unwrap_err().to_string();
         assert!(said.contains("series.csv: line 6: time (s) 0.") && said.contains("rows in rising order"), "{said}");
