@@ -32,6 +32,8 @@ fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
     for check in ["front", "arrival"] {
         assert_eq!(found(&sound, check)[0].0, Outcome::Right, "{:?}", found(&sound, check));
     }
+    // The pressure behind the gate, which no column gives, is not asked for.
+    assert!(gate::gate(true, &["front"]).refusal(&sound).is_none());
     type Change = fn(&mut Vec<(f64, f64)>);
     let changes: [(Change, &str); 5] = [
         (|rows| rows.iter_mut().for_each(|row| row.0 *= 1000.0), "begins at time"),
