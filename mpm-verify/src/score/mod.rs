@@ -113,10 +113,10 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
                 }
                 table
             }
-            Some("vtu") if part == Part::Particles => vtu::read(&path)?,
+            Some("vtu" | "vtp") if part == Part::Particles => vtu::read(&path)?,
             _ => {
                 let allowed = match part {
-                    Part::Particles => "a .csv or .vtu file",
+                    Part::Particles => "a .csv, .vtu or .vtp file",
                     Part::Series => "a .csv file",
                 };
                 let said = format!("{} {:?}; allowed: {allowed}", part.name(), name.0);
