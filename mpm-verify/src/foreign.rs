@@ -112,7 +112,9 @@ impl Gap {
     pub fn refusal(&self, tolerance: Option<f64>) -> Option<String> {
         match (self, tolerance) {
             (Self::Unknown(why), _) => Some(why.clone()),
-            (Self::Error(error) | Self::Between(Between { error, .. }), Some(allowed)) if !(*error <= allowed) => {
+            (Self::Error(error) | Self::Between(Between { error, .. }), Some(allowed))
+                if error.is_nan() || *error > allowed =>
+            {
                 Some(format!(
                     "taken between rows with an error of up to {error:.2e}, where {allowed:.2e} is allowed: closer rows show it"
                 ))

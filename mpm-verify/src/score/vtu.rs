@@ -21,8 +21,11 @@ const SMALL: u64 = 1 << 20;
 /// The element behind whose mark the numbers of all arrays may stand.
 const APPENDED: &[u8] = b"<AppendedData";
 const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
+/// A vector or tensor: its name, unit, number of components, and columns of some of these.
+type Parts = (&'static str, &'static str, usize, &'static [(usize, &'static str)]);
+
 /// Vectors and tensors with the columns of their components; of a symmetric tensor VTK has xx, yy, zz, xy, yz and xz.
-const PARTS: [(&str, &str, usize, &[(usize, &str)]); 5] = [
+const PARTS: [Parts; 5] = [
     ("reference", "m", 3, &[(0, "reference_x (m)"), (1, "reference_y (m)"), (2, "reference_z (m)")]),
     ("displacement", "m", 3, &[(0, "ux (m)"), (1, "uy (m)"), (2, "uz (m)")]),
     ("plateau_displacement", "m", 3, &[(0, "plateau_ux (m)"), (1, "plateau_uy (m)")]),
