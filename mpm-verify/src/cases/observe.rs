@@ -243,7 +243,7 @@ mod tests {
             oscillation(&places, &places.iter().enumerate().map(value).collect::<Vec<f64>>(), 2.0)
         });
         assert!(fields[0] < 1e-12 && (fields[1] - 7.0).abs() < 1e-9, "{fields:?}");
-        // Of few points the mean alone is taken.
+        // Two points have a mean and no plane.
         assert_eq!(oscillation(&[[0.0, 0.0], [0.1, 0.0]], &[1.0, -1.0], 1.0), 1.0);
     }
 
