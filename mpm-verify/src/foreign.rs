@@ -85,7 +85,7 @@ fn letters(head: &str) -> String {
 /// Metrics of a result.
 pub type Measured = Result<Vec<(Metric, f64)>, Error>;
 
-/// What the rows of a series leave open of a metric.
+/// A metric that the rows of a series leave open.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Gap {
     /// They do not show it, and why.
@@ -150,7 +150,7 @@ pub struct Foreign {
     pub groups: Vec<Group>,
     /// The column by which the rows of the series are ordered, if there is one.
     pub abscissa: Option<Asked>,
-    /// What the rows leave open.
+    /// Metrics that the rows leave open.
     pub gaps: fn(&Given) -> Gaps,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,

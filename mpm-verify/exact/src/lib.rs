@@ -5,6 +5,7 @@
 //! so that a simulation needs only the initial velocity. [`slope`] is no motion but a limit load.
 
 pub mod axis_aligned;
+pub mod cantilever;
 #[cfg(test)]
 mod check;
 pub mod common;

@@ -184,7 +184,7 @@ pub(super) fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
 /// Rms of a field less its plane of best fit in each square of a `size` (m): an oscillation from particle to particle or
 /// from cell to cell, whoever computed it. A square of three particles or less has its mean.
 pub(super) fn oscillation(places: &[[f64; 2]], field: &[f64], size: f64) -> f64 {
-    let mut squares = std::collections::BTreeMap::<[i64; 2], Vec<([f64; 2], f64)>>::new();
+    let mut squares = std::collections::BTreeMap::<[i64; 2], Vec<Valued>>::new();
     for (x, value) in places.iter().zip(field) {
         let square = x.map(|x| (x / size).floor() as i64);
         squares.entry(square).or_default().push((*x, *value));
@@ -192,10 +192,12 @@ pub(super) fn oscillation(places: &[[f64; 2]], field: &[f64], size: f64) -> f64 
     rms(squares.into_values().flat_map(off_plane))
 }
 
+/// A point (m) and a value.
+type Valued = ([f64; 2], f64);
+
 /// Values of points less their plane of best fit.
-fn off_plane(points: Vec<([f64; 2], f64)>) -> Vec<f64> {
-    type Of<'a> = &'a dyn Fn(&([f64; 2], f64)) -> f64;
-    let mean = |of: Of| points.iter().map(of).sum::<f64>() / points.len() as f64;
+fn off_plane(points: Vec<Valued>) -> Vec<f64> {
+    let mean = |of: &dyn Fn(&Valued) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
     let centre = [0, 1].map(|axis| mean(&|p| p.0[axis]));
     let middle = mean(&|p| p.1);
     let moment = |of: &dyn Fn([f64; 2], f64) -> f64| {
@@ -241,7 +243,7 @@ mod tests {
             oscillation(&places, &places.iter().enumerate().map(value).collect::<Vec<f64>>(), 2.0)
         });
         assert!(fields[0] < 1e-12 && (fields[1] - 7.0).abs() < 1e-9, "{fields:?}");
-        // Of few points the mean alone is taken.
+        // Two points have a mean and no plane.
         assert_eq!(oscillation(&[[0.0, 0.0], [0.1, 0.0]], &[1.0, -1.0], 1.0), 1.0);
     }
 

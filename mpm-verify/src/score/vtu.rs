@@ -1,5 +1,5 @@
-//! Particles from an unstructured grid of VTK, as other codes and ParaView write it: one piece, whose points and scalar
-//! point data become columns; in ASCII, or binary in place or appended, plain or compressed by zlib.
+//! Particles from an unstructured grid or polygonal data of VTK, as other codes and ParaView write them: one piece, whose
+//! points and point data become columns; in ASCII, or binary in place or appended, plain or compressed by zlib.
 
 use crate::error::Error;
 use crate::files::{TABLE, read as read_file};
@@ -21,6 +21,17 @@ const SMALL: u64 = 1 << 20;
 /// The element behind whose mark the numbers of all arrays may stand.
 const APPENDED: &[u8] = b"<AppendedData";
 const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
+/// A vector or tensor: its name, unit, number of components, and columns of some of these.
+type Parts = (&'static str, &'static str, usize, &'static [(usize, &'static str)]);
+
+/// Vectors and tensors with the columns of their components; of a symmetric tensor VTK has xx, yy, zz, xy, yz and xz.
+const PARTS: [Parts; 5] = [
+    ("reference", "m", 3, &[(0, "reference_x (m)"), (1, "reference_y (m)"), (2, "reference_z (m)")]),
+    ("displacement", "m", 3, &[(0, "ux (m)"), (1, "uy (m)"), (2, "uz (m)")]),
+    ("plateau_displacement", "m", 3, &[(0, "plateau_ux (m)"), (1, "plateau_uy (m)")]),
+    ("stress", "Pa", 6, &[(0, "stress_xx (Pa)"), (1, "stress_yy (Pa)"), (2, "stress_zz (Pa)"), (3, "stress_xy (Pa)")]),
+    ("stress", "Pa", 9, &[(0, "stress_xx (Pa)"), (4, "stress_yy (Pa)"), (8, "stress_zz (Pa)"), (1, "stress_xy (Pa)")]),
+];
 
 /// Types of numbers: their name, bytes and value.
 type Kind = (&'static str, usize, fn([u8; 8]) -> f64);
@@ -83,7 +94,7 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let mark = data.iter().position(|b| *b == b'_');
     let data = mark.map_or(&[][..], |mark| &data[mark + 1..]);
     let points = layout.points.ok_or("no piece with NumberOfPoints")?;
-    let mut columns: Vec<(String, Vec<f64>)> = Vec::new();
+    let (mut columns, mut parts) = (Vec::<(String, Vec<f64>)>::new(), Vec::new());
     for array in arrays {
         let numbers = array.numbers(&layout, points, data).map_err(|said| format!("array {:?}: {said}", array.name))?;
         if array.of_points {
@@ -91,10 +102,15 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
                 let along = numbers.iter().skip(axis).step_by(3).copied();
                 columns.push(((*name).to_owned(), along.collect()));
             }
-        } else {
+        } else if array.components == 1 {
             columns.push((array.name, numbers));
+        } else {
+            parts.extend(array.parts(&numbers));
         }
     }
+    // A column that is there as a scalar is that one.
+    parts.retain(|(name, _)| !columns.iter().any(|(own, _)| own == name));
+    columns.append(&mut parts);
     let mut known = HashSet::new();
     for (name, values) in &columns {
         if !known.insert(name) {
@@ -181,7 +197,29 @@ impl Array {
 
     /// Whether it becomes a column, or those of places.
     fn is_read(&self) -> bool {
-        self.components == if self.of_points { 3 } else { 1 }
+        match self.of_points {
+            true => self.components == 3,
+            false => self.components == 1 || self.kind_of_parts().is_some(),
+        }
+    }
+
+    /// Columns of a vector or tensor that is known by its name, with its unit or without.
+    fn kind_of_parts(&self) -> Option<&'static [(usize, &'static str)]> {
+        let is = |name: &str, unit: &str| self.name == name || self.name == format!("{name} ({unit})");
+        let known = PARTS.iter().find(|(name, unit, count, _)| *count == self.components && is(name, unit));
+        known.map(|(.., columns)| *columns)
+    }
+
+    /// Columns of a vector or tensor; of a stress its mean too.
+    fn parts(&self, numbers: &[f64]) -> Vec<(String, Vec<f64>)> {
+        let part = |k: usize| numbers.iter().skip(k).step_by(self.components).copied();
+        let known = self.kind_of_parts().unwrap_or_default();
+        let mut parts: Vec<_> = known.iter().map(|(k, name)| ((*name).to_owned(), part(*k).collect())).collect();
+        if let [(x, _), (y, _), (z, _), _] = known {
+            let mean = part(*x).zip(part(*y)).zip(part(*z)).map(|((x, y), z)| (x + y + z) / 3.0);
+            parts.push(("mean_stress (Pa)".to_owned(), mean.collect()));
+        }
+        parts
     }
 
     fn numbers(&self, layout: &Layout, points: usize, data: &[u8]) -> Result<Vec<f64>, String> {
@@ -255,8 +293,8 @@ impl Layout {
     /// Reads the outermost element.
     fn read_file(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
         let is = |name: &str, value: &str| attribute(element, name).is_some_and(|v| v == value);
-        if !is("type", "UnstructuredGrid") {
-            return Err("no VTKFile of type UnstructuredGrid".to_owned());
+        if !["UnstructuredGrid", "PolyData"].iter().any(|kind| is("type", kind)) {
+            return Err("no VTKFile of type UnstructuredGrid or PolyData".to_owned());
         }
         self.big_endian = is("byte_order", "BigEndian");
         self.long_headers = is("header_type", "UInt64");

@@ -1,8 +1,9 @@
 //! Checks of the cantilever.
 
-use super::reference::{Solution, Stresses, stresses};
+use super::reference::stresses;
 use super::*;
 use crate::cases::checks::quadratic;
+use crate::exact::cantilever::{Solution, Stresses};
 
 /// Largest relative error of the corner's u_y with quadratic splines, by level: the discretisation error that has been
 /// asked for, half of it from one level to the next.

@@ -110,7 +110,7 @@ pub(super) fn case() -> Case {
         description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
                       the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
                       finite elements; the paper's serendipity elements don't converge.",
-        references: reference::describe(),
+        references: crate::exact::cantilever::describe(),
         limits: &[
             "The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.",
             "Serendipity elements are the paper's, for this case alone.",

@@ -112,7 +112,7 @@ fn what_is_no_grid_is_refused() {
     };
     let piece = |n: &str| with("\"2\"", &format!("\"{n}\""));
     for (text, named) in [
-        (with("UnstructuredGrid\"", "PolyData\""), "no VTKFile of type UnstructuredGrid"),
+        (with("UnstructuredGrid\"", "ImageData\""), "no VTKFile of type UnstructuredGrid"),
         (
             with("<VTKFile ", "<VTKFile compressor=\"vtkLZ4DataCompressor\" "),
             "a compressor other than vtkZLibDataCompressor",
@@ -252,4 +252,30 @@ fn a_small_file_does_not_come_to_large_arrays() {
     assert_eq!(with(1), Ok(points));
     let said = with(2).unwrap_err();
     assert!(said.contains("more than 64 times as large as the file"), "{said}");
+}
+
+#[test]
+fn polygonal_data_vectors_and_tensors_become_columns() {
+    let parts =
+        |name: &str, count: usize, numbers: &str| array(name, &format!(r#" NumberOfComponents="{count}">{numbers}"#));
+    let (vector, tensor) = ("1 2 3 4 5 6", "1 2 6 4 5 0 -1 -2 -6 7 8 0");
+    let inside = parts("displacement", 3, vector) + &parts("stress (Pa)", 6, tensor) + &parts("velocity", 3, vector);
+    let text = grid(&inside).replace("UnstructuredGrid", "PolyData");
+    assert_eq!(
+        columns(&text),
+        [
+            column("ux (m)", [1.0, 4.0]),
+            column("uy (m)", [2.0, 5.0]),
+            column("uz (m)", [3.0, 6.0]),
+            column("stress_xx (Pa)", [1.0, -1.0]),
+            column("stress_yy (Pa)", [2.0, -2.0]),
+            column("stress_zz (Pa)", [6.0, -6.0]),
+            column("stress_xy (Pa)", [4.0, 7.0]),
+            column("mean_stress (Pa)", [3.0, -3.0]),
+        ]
+    );
+    let full = parts("stress", 9, "1 4 0 4 2 0 0 0 6 -1 7 0 7 -2 0 0 0 -6") + &array("mean_stress (Pa)", ">8 9");
+    let found = columns(&grid(&full));
+    assert_eq!(found[0], column("mean_stress (Pa)", [8.0, 9.0]));
+    assert_eq!(found[1..], columns(&text)[3..7]);
 }
