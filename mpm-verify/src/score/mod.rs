@@ -142,7 +142,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
     let verdicts: Vec<Verdict> = case.verdicts(record).into_iter().filter(of_code).collect();
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
     let is_given = |w: &&Wanted| {
-        let mut own = verdicts.iter().filter(|v| w.by.contains(&&*v.check)).peekable();
+        let mut own = verdicts.iter().filter(|v| w.is_judged_by(&v.check)).peekable();
         own.peek().is_none() || own.any(|v| group_of(v).is_some())
     };
     let wanted: Vec<Wanted> = case.wanted.iter().filter(is_given).copied().collect();
