@@ -38,7 +38,6 @@ pub(super) fn case() -> Case {
         plan: Plan::of(&levels)
             .runs(Quick, "n8", &few[2..3], "")
             .runs(Pr, "n8", &few, "")
-            .runs(Pr, "n16", &pairs(&SMOOTH, &[FbarConsistent]), "")
             .runs(Nightly, THREE, &few, "")
             .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
             .each(Nightly, "n8 n16", &main_pairs(), MORE)
