@@ -67,7 +67,7 @@ def main():
                 command += ["--set", f"{key}={value}"]
             code, said = output(command, given.seconds)
             tried += 1
-            slow += code is None
+            slow += not isinstance(code, int)
             named = code == INPUT and any(key in said for key, _ in assigned)
             if code in (GOOD, None) or named:
                 continue

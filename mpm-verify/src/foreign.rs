@@ -5,7 +5,6 @@ use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::{ParameterSet, Parameters};
 use crate::record::Discretisation;
-use crate::sampled::Between;
 use crate::scheme::{BasisName, Scheme};
 use crate::setup::Setup;
 use crate::spec::RunSpec;
@@ -84,6 +83,15 @@ fn letters(head: &str) -> String {
 
 /// Metrics of a result.
 pub type Measured = Result<Vec<(Metric, f64)>, Error>;
+
+/// A value between rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Between {
+    /// The value of the parabolas through the nearest rows.
+    pub value: f64,
+    /// Their largest distance from the straight line: a bound of the error.
+    pub error: f64,
+}
 
 /// A metric that the rows of a series leave open.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,6 +1,6 @@
 //! A curve of which rows are known: its values between them, and the error that its curvature leaves there.
 
-use crate::foreign::{Asked, Gap, Given};
+use crate::foreign::{Asked, Between, Gap, Given};
 use crate::metric::Metric;
 
 /// Share of a span by which rows may end before its end.
@@ -9,15 +9,6 @@ pub(crate) const SHORT: f64 = 0.01;
 const DENSE: usize = 4;
 /// Relative rounding of an abscissa.
 const ROUNDING: f64 = 1e-9;
-
-/// A value between rows.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Between {
-    /// The value of the parabolas through the nearest rows.
-    pub value: f64,
-    /// Their largest distance from the straight line: a bound of the error.
-    pub error: f64,
-}
 
 /// Rows with a rising abscissa.
 pub(crate) struct Sampled<'a> {

@@ -91,7 +91,7 @@ fn bad_values_are_refused_with_the_allowed_range() {
         ("flip=1.5", "0 to 1"),
         ("wall=glass", "open-knot, wall-line"),
         ("kinetic_damping=maybe", "true, false"),
-        ("ppc_per_direction=2.5", "whole number from 1 to 4"),
+        ("ppc_per_direction=2.5", "whole number from 2 to 4"),
         ("load", "name=value"),
         ("young_modulus=1e20", "0.001 to 1e12"),
     ] {
@@ -153,7 +153,7 @@ fn a_run_ends_with_its_verdict_in_the_words_of_all_outcomes() {
     };
     let all = stdout(&run(&[]));
     let last = all.lines().last().unwrap();
-    assert!(last.starts_with("Verdict: wrong as known: locked; "), "{all}");
+    assert!(last.starts_with("Verdict: wrong as known: locked, locks; "), "{all}");
     assert!(all.lines().all(|line| line.chars().count() <= 100), "{all}");
     assert!(!all.contains('\x1b'));
     assert_eq!(stdout(&run(&["--quiet"])), format!("{last}\n"));

@@ -35,7 +35,6 @@ pub(super) struct Row {
     wrong_as_known: usize,
     not_judged: usize,
     pub(super) failed: usize,
-    /// Wanted quantities that were not judged; none of rows of former programs.
     #[serde(default)]
     wanted_not_judged: usize,
     particles: u64,

@@ -65,8 +65,9 @@ pub(super) fn list(names: impl IntoIterator<Item = impl Into<String>>) -> String
 pub(super) fn sentence(record: &Record) -> String {
     let found = outcome_of_run(record);
     let checks = |outcome: Outcome| {
-        let own = record.verdicts.iter().filter(move |v| v.outcome == outcome && v.kind != Kind::Wanted);
-        distinct(own.filter(|v| v.judges() || v.failed()).map(|v| &*v.check))
+        let own = record.verdicts.iter().filter(move |v| v.outcome == outcome && !v.is_wanted());
+        let told = |v: &&Verdict| v.kind == Kind::KnownLimit || outcome != Outcome::WrongAsKnown;
+        distinct(own.filter(|v| told(v) && (v.judges() || v.failed())).map(|v| &*v.check))
     };
     let wanted = |outcome: Outcome| {
         let own = record.verdicts.iter().filter(|v| v.is_wanted() && v.outcome == outcome);

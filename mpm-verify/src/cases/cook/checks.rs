@@ -144,7 +144,7 @@ impl Setup<Cook> {
         self.is_judged_place() && self.is_free_of_locking()
     }
 
-    /// The displacement (m) of the reference; NaN where there is none.
+    /// The displacement (m) of the reference; NaN without one.
     fn exact(&self, of: Measure) -> f64 {
         self.solution().map_or(f64::NAN, |s| s.of(of))
     }

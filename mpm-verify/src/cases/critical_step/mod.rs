@@ -6,6 +6,7 @@ mod run;
 
 use super::family::{BASES, REMEDIES, other_transfers, pairs};
 use super::parameters as common;
+use crate::parameter::Domain;
 use crate::prelude::*;
 use crate::problem::begin;
 use mpm_core::material::{NeoHookean, Viscous};
@@ -32,7 +33,7 @@ parameters! {
             "J of the body at the start, by a stretch along the axis; other than 1 in one dimension alone";
         linear_viscosity: f64 = common::LINEAR_VISCOSITY;
         steps: i32 = whole("-", "400", 100, 1_000_000), "steps of a trial";
-        ppc_per_direction: usize = common::PPC_PER_DIRECTION;
+        ppc_per_direction: usize = common::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 4 });
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
     }
 }
