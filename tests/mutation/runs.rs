@@ -121,7 +121,7 @@ pub(crate) const SLOW_RATIOS: Runs = &["mms-static --level n8", "mms-static --le
 /// A soft body whose velocity has a constant gradient, beside walls and in three dimensions, and free fall.
 pub(crate) const AFFINE: Runs = &["patch --scheme bspline2-none-apic"];
 pub(crate) const FILTERED: Runs = &["patch --scheme bspline2-none-xpic2"];
-pub(crate) const NINE_ENTRIES: Runs = &["patch --scheme gimp-none-flip --level n8 --set dimension=3"];
+pub(crate) const NINE_ENTRIES: Runs = &["patch --scheme gimp-none-flip --set dimension=3"];
 pub(crate) const DAMPED: Runs = &["patch --scheme gimp-none-flip --set strain=0 --set fall=0.2 --set damping=0.5"];
 pub(crate) const FALLING: Runs = &["patch --scheme newmark-gimp-none --set strain=0 --set fall=0.2"];
 
