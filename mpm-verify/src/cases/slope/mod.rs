@@ -12,7 +12,7 @@ pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
 pub(super) const DENSITY: Parameter = common::DENSITY.with_default("2150").within(number(100.0, 1e4, false));
 parameters! { pub(super) const:
-    HEIGHT = "height", "m", "5", number(2.0, 100.0, false), "height H";
+    HEIGHT = "height", "m", "5", number(1.0, 100.0, false), "height H";
     CREST = "crest", "m", "10", number(0.5, 200.0, false), "length of the crest behind the face";
     FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false),
         "angle of the face against the horizontal";

@@ -162,7 +162,7 @@ fn by_level(case: &Case, own: &[&Convergence]) -> Sheet {
 }
 
 /// Most checks that a line names.
-const SHOWN: usize = 3;
+const SHOWN: usize = 2;
 
 /// A run on a line: what decides its verdict, what the case shows of it, what it cost.
 fn of_runs(case: &Case, study: &CaseStudy) -> Table {
