@@ -44,14 +44,17 @@ impl Wanted {
         verdicts.iter().filter(move |v| v.kind == Kind::Truth && wanted.is_judged_by(&v.check))
     }
 
-    /// Turns a miss into *wrong as known* where a known limit explains it.
+    /// Turns a miss into *wrong as known* where a known limit explains it. A value that is not a number is never explained.
     fn explain(&self, verdicts: &mut [Verdict]) {
         let seen =
             |v: &&Verdict| v.outcome == Outcome::WrongAsKnown && self.limits.split(' ').any(|name| name == v.check);
         let Some(limit) = verdicts.iter().find(seen).map(|v| v.check.clone()) else {
             return;
         };
-        let missed = |v: &&mut Verdict| v.kind == Kind::Truth && v.failed() && self.is_judged_by(&v.check);
+        let missed = |v: &&mut Verdict| {
+            let is_number = v.value.is_some_and(f64::is_finite);
+            v.kind == Kind::Truth && v.failed() && is_number && self.is_judged_by(&v.check)
+        };
         for verdict in verdicts.iter_mut().filter(missed) {
             verdict.outcome = Outcome::WrongAsKnown;
             verdict.source = format!("known limit {limit}; {}", verdict.source);
@@ -125,6 +128,8 @@ mod tests {
         assert_eq!(outcome(vec![law(), miss.clone(), limit(true)]), Outcome::WrongAsKnown);
         assert_eq!(outcome(vec![law(), miss, limit(false)]), Outcome::Failed);
         assert_eq!(outcome(vec![law(), hold, limit(false)]), Outcome::Failed);
+        let unmeasured = Finding::at_most("m", f64::NAN, 1.0, "").verdict("tip", Kind::Truth);
+        assert_eq!(outcome(vec![law(), unmeasured, limit(true)]), Outcome::Failed);
     }
 
     /// Names of checks are keys: each is that of a check of its kind on single runs.

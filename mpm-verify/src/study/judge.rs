@@ -6,7 +6,7 @@ use crate::error::{Error, ExitCode};
 use crate::record::{BREAKS_DOWN, Record, Status};
 use crate::run::checkpoint::Saving;
 use crate::run::{Progress, execute};
-use crate::scheme::Scheme;
+use crate::scheme::{RemedyName, Scheme};
 use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::Path;
@@ -27,7 +27,7 @@ pub fn judged_run(
 
 /// All verdicts on one run.
 pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
-    let ending = match (case.breaks_down)(record).or_else(|| long_step(case, record)) {
+    let ending = match (case.breaks_down)(record).or_else(|| breaks_beside_the_plan(case, record)) {
         None => completes(record),
         Some(why) => breaks_down(record, why),
     };
@@ -42,13 +42,20 @@ pub fn judge(case: &Case, record: &Record) -> Vec<Verdict> {
 /// `docs/critical-step.md`.
 const STABLE_CFL: f64 = 0.5;
 
-/// Reason why an explicit run that broke down had to be expected to, if its steps are longer than stability allows.
-fn long_step(case: &Case, record: &Record) -> Option<&'static str> {
-    let is_explicit = matches!(record.scheme(), Scheme::Explicit(_));
+/// Reason why a run that no tier plans may break down as it did, if one is known of schemes in general.
+fn breaks_beside_the_plan(case: &Case, record: &Record) -> Option<&'static str> {
+    if record.status == Status::Ok || case.plans(record) {
+        return None;
+    }
     let cfl = case.parameters.iter().find(|p| p.name == "cfl");
     let is_long = cfl.is_some_and(|cfl| record.parameters.number(*cfl) > STABLE_CFL);
-    let broke = record.status == Status::Failed;
-    (broke && is_explicit && is_long).then_some("a CFL number above 0.5: such steps are stable for some layouts only")
+    match record.scheme() {
+        Scheme::Explicit(_) if is_long => Some("a CFL number above 0.5: such steps are stable for some layouts only"),
+        scheme if scheme.remedy() == RemedyName::FbarRecursive => {
+            Some("averages of averages let the true volumes drift until particles invert: docs/remedy.md")
+        }
+        _ => None,
+    }
 }
 
 /// Whether the run came to its end: a check of every case.
@@ -131,6 +138,9 @@ mod tests {
         let mut run = record(planned.level.name, Vec::new());
         run.set = vec!["load=0.3".to_owned()];
         assert!(!case.plans(&run));
+        run.status = Status::Failed;
+        assert!(breaks_beside_the_plan(case, &run).is_none());
+        run.status = Status::Ok;
         let vanished = breaks_down(&run, "as known");
         assert!(vanished.failed());
         assert_eq!(vanished.unplanned().outcome, Outcome::NotJudged);
