@@ -280,7 +280,7 @@ fn newmark_leaves(r: &Run<()>) -> f64 {
     let [per_cell, alpha, delta] = [PPC_PER_DIRECTION, ALPHA, DELTA].map(|p| r.values.number(p));
     let places = (0..per_cell as u32).map(|k| (f64::from(k) + 0.5) / per_cell);
     let mean = |of: &dyn Fn(f64) -> f64| places.clone().map(of).sum::<f64>() / per_cell;
-    // What nodes see of sin kX, and of what comes from nodes.
+    // Shares that nodes see of sin kX, and of fields that come from nodes.
     let seen = mean(&|s| 2.0 * (1.0 - s) * (theta * s).cos());
     let kept = mean(&|s| 1.0 - 2.0 * s * (1.0 - s) * (1.0 - theta.cos()));
     let stiffness = (omega * 2.0 * (0.5 * theta).sin() / theta).powi(2);

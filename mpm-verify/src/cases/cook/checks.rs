@@ -37,7 +37,7 @@ const NEAR_FREE_SIDE: [f64; 2] = [24.0, 24.0];
 /// Particles at two per direction, by cell size.
 const COUNTS: [(f64, f64); 4] = [(2.0, 1448.0), (1.0, 5776.0), (0.5, 23_072.0), (0.25, 92_224.0)];
 /// Least ghost penalty, in shares of Young's modulus, that holds a rim: on smooth fields it errs by less than a thousandth
-/// of itself, and a function needs less material than this share of a cell to be held more by it than by the material.
+/// of itself, and it outweighs the material only for functions with less of it than this share of a cell.
 const HOLDS: f64 = 1e-3;
 /// Least gain in creep when the time step is halved: √2, less the scatter of the two fits.
 const FASTER: f64 = 1.3;

@@ -285,7 +285,7 @@ fn tables() -> Vec<ResultTable> {
     };
     let noise = |r: &Record| fixed(2).text(r.metric(CHECKERBOARD_RATIO));
 
-    // What is said first: locking, creep and where convergence stops.
+    // Headline results: locking, creep and the end of convergence.
     let overview = [
         (RemedyName::None, "h1", "1 m"),
         (RemedyName::None, "h0.5", "½ m"),
@@ -346,7 +346,7 @@ fn tables() -> Vec<ResultTable> {
             &[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))],
             of_static,
         ),
-        // What a rim that is held, one step, and a larger load come to.
+        // Effect of a held rim, of a single step and of a larger load.
         ResultTable::new(
             "cook-rim",
             |r| is_static(r) && r.level == "h1",
