@@ -12,7 +12,9 @@ pub struct Wanted {
     pub statement: &'static str,
     /// Truth checks that judge it, apart by spaces.
     pub by: &'static str,
-    /// Known limits that explain a miss of these checks, apart by spaces.
+    /// Further truth checks that judge it, of which no known limit explains a miss.
+    pub firm: &'static str,
+    /// Known limits that explain a miss of the first checks, apart by spaces.
     pub limits: &'static str,
     /// Whether runs of which none of the checks says anything have no reference for it, and are not asked.
     pub only_where_referenced: bool,
@@ -21,12 +23,17 @@ pub struct Wanted {
 impl Wanted {
     /// A quantity that the checks `by` judge.
     pub(crate) const fn new(name: &'static str, statement: &'static str, by: &'static str) -> Self {
-        Self { name, statement, by, limits: "", only_where_referenced: false }
+        Self { name, statement, by, firm: "", limits: "", only_where_referenced: false }
     }
 
     /// With the known limits that explain a miss.
     pub(crate) const fn missed_by(self, limits: &'static str) -> Self {
         Self { limits, ..self }
+    }
+
+    /// With checks that judge it too and of which no known limit explains a miss.
+    pub(crate) const fn firmly_by(self, firm: &'static str) -> Self {
+        Self { firm, ..self }
     }
 
     /// Not asked of runs of which none of its checks says anything.
@@ -36,7 +43,16 @@ impl Wanted {
 
     /// Whether a check is among those that judge it.
     pub(crate) fn is_judged_by(&self, check: &str) -> bool {
-        self.by.split(' ').any(|name| name == check)
+        self.checks().any(|name| name == check)
+    }
+
+    fn checks(&self) -> impl Iterator<Item = &'static str> + use<> {
+        self.by.split(' ').chain(self.firm.split_whitespace())
+    }
+
+    /// Names of all checks that judge it, in a sentence.
+    pub(crate) fn names(&self) -> String {
+        self.checks().collect::<Vec<_>>().join(", ")
     }
 
     fn judging<'a>(&self, verdicts: &'a [Verdict]) -> impl Iterator<Item = &'a Verdict> + use<'a> {
@@ -53,7 +69,7 @@ impl Wanted {
         };
         let missed = |v: &&mut Verdict| {
             let is_number = v.value.is_some_and(f64::is_finite);
-            v.kind == Kind::Truth && v.failed() && is_number && self.is_judged_by(&v.check)
+            v.kind == Kind::Truth && v.failed() && is_number && self.by.split(' ').any(|name| name == v.check)
         };
         for verdict in verdicts.iter_mut().filter(missed) {
             verdict.outcome = Outcome::WrongAsKnown;
@@ -74,7 +90,7 @@ impl Wanted {
         };
         let reason = || match self.judging(verdicts).next() {
             Some(v) => format!("{}: {}", v.check, v.source),
-            None => format!("none of its checks was applied: {}", self.by.replace(' ', ", ")),
+            None => format!("none of its checks was applied: {}", self.names()),
         };
         Some(Verdict {
             check: self.name.to_owned(),
@@ -140,7 +156,7 @@ mod tests {
             let is = |name: &str, kind| case.checks.iter().any(|c| c.name == name && c.kind == kind);
             for wanted in &case.wanted {
                 let of = format!("{} {}", case.name, wanted.name);
-                assert!(wanted.by.split(' ').all(|name| is(name, Kind::Truth)), "{of}");
+                assert!(wanted.checks().all(|name| is(name, Kind::Truth)), "{of}");
                 assert!(wanted.limits.split_whitespace().all(|name| is(name, Kind::KnownLimit)), "{of}");
             }
         }

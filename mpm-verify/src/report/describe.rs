@@ -91,7 +91,7 @@ pub fn explain(case: &Case) -> String {
     let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
     list("Metrics", metrics.collect());
     let wanted = case.wanted.iter();
-    let wanted = wanted.map(|w| format!("{}  {}; judged by {}", w.name, w.statement, w.by.replace(' ', ", ")).into());
+    let wanted = wanted.map(|w| format!("{}  {}; judged by {}", w.name, w.statement, w.names()).into());
     list("Wanted (a run is right only if each is right)", wanted.collect());
     let checks = case.checks.iter();
     let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());

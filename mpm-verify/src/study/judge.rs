@@ -6,7 +6,7 @@ use crate::error::{Error, ExitCode};
 use crate::record::{BREAKS_DOWN, Record, Status};
 use crate::run::checkpoint::Saving;
 use crate::run::{Progress, execute};
-use crate::scheme::{RemedyName, Scheme};
+use crate::scheme::Scheme;
 use crate::spec::RunSpec;
 use crate::verdict::{Kind, Outcome, Verdict};
 use std::path::Path;
@@ -49,13 +49,8 @@ fn breaks_beside_the_plan(case: &Case, record: &Record) -> Option<&'static str> 
     }
     let cfl = case.parameters.iter().find(|p| p.name == "cfl");
     let is_long = cfl.is_some_and(|cfl| record.parameters.number(*cfl) > STABLE_CFL);
-    match record.scheme() {
-        Scheme::Explicit(_) if is_long => Some("a CFL number above 0.5: such steps are stable for some layouts only"),
-        scheme if scheme.remedy() == RemedyName::FbarRecursive => {
-            Some("averages of averages let the true volumes drift until particles invert: docs/remedy.md")
-        }
-        _ => None,
-    }
+    let is_explicit = matches!(record.scheme(), Scheme::Explicit(_));
+    (is_long && is_explicit).then_some("a CFL number above 0.5: such steps are stable for some layouts only")
 }
 
 /// Whether the run came to its end: a check of every case.
