@@ -16,7 +16,7 @@ use crate::files::{read_text, write_whole};
 use crate::record::Record;
 use crate::results::ResultTable;
 use crate::study::convergence::convergence;
-use crate::study::summary::CaseStudy;
+use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Sheet;
 use jiff::civil::Date;
 use std::collections::{BTreeMap, BTreeSet};
@@ -187,7 +187,18 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         let own = records().filter(|r| r.case == case.name);
         CaseStudy::new(case.name, own.cloned().collect())
     });
-    let speed = Speed::of(&studies.collect::<Vec<_>>());
+    let studies: Vec<CaseStudy> = studies.collect();
+    let speed = Speed::of(&studies);
+    let nights = || kept.iter().map(|(_, night)| night);
+    let outcomes = match (nights().min(), nights().max()) {
+        (Some(oldest), Some(newest)) => {
+            let counts = Summary::new("", studies).counts.to_string();
+            let counts: Vec<&str> = counts.lines().take(2).collect();
+            let of = format!("Nights of {oldest} to {newest}, each run judged by the program of its night:");
+            format!("{of}\n{}\n", counts.join("\n"))
+        }
+        _ => String::new(),
+    };
     let wrapped = |text: &str| {
         let options = textwrap::Options::new(LINE);
         let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
@@ -216,7 +227,7 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = criteria::all();
     let over_cases = over_cases.iter().map(|t| table(t, None)).chain(map);
-    let costs = [(speed::NAME, prices), (rivals::NAME, rivals)];
+    let costs = [("outcomes", outcomes), (speed::NAME, prices), (rivals::NAME, rivals)];
     let costs = costs.map(|(name, text)| (name.to_owned(), text));
     of_cases.chain(over_cases).chain(costs).collect()
 }
