@@ -1,6 +1,8 @@
 //! Which checks see which fault: the file that a run of the faults leaves, and the page that shows it.
 
 use crate::faults::faults;
+use mpm_verify::cases;
+use mpm_verify::verdict::Kind;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::fs;
@@ -54,12 +56,26 @@ impl Kills {
         few.flat_map(|(fault, seers)| seers.iter().map(move |seer| (fault.as_str(), seer)))
     }
 
+    /// Faults that no check against the truth sees.
+    fn untrue(&self) -> BTreeSet<&str> {
+        let judges = |(case, check): &Seer| {
+            let mut checks = cases::find(case).unwrap().checks.iter();
+            checks.any(|c| c.name == check && c.kind == Kind::Truth)
+        };
+        let unseen = self.0.iter().filter(|(_, seers)| !seers.iter().any(judges));
+        unseen.map(|(fault, _)| fault.as_str()).collect()
+    }
+
     /// The page.
     pub(crate) fn page(&self) -> String {
         let mut page = INTRODUCTION.to_owned();
         let alone: Vec<_> = self.alone().collect();
         let (count, few) = (self.0.len(), alone.len());
-        writeln!(page, "\n{count} faults; {few} of them hang on one check only and are marked **alone**.\n").unwrap();
+        let untrue = self.untrue();
+        let sees = format!("Checks against the truth see {} of {count} faults.", count - untrue.len());
+        let others = "The others are marked **no truth**: bookkeeping, a breakdown, a regression band or a known limit sees them.";
+        writeln!(page, "\n{sees} {others}").unwrap();
+        writeln!(page, "{few} faults hang on one check only and are marked **alone**.\n").unwrap();
         writeln!(page, "| file | fault | seen by |\n|---|---|---|").unwrap();
         for fault in faults() {
             let none = BTreeSet::new();
@@ -73,7 +89,8 @@ impl Kills {
                 format!("{case}: {}", checks.join(" "))
             });
             let cells: Vec<String> = cells.collect();
-            let mark = if seers.len() == 1 { "**alone** " } else { "" };
+            let alone = if seers.len() == 1 { "**alone** " } else { "" };
+            let mark = if untrue.contains(fault.name) { format!("{alone}**no truth** ") } else { alone.to_owned() };
             let (file, name) = (fault.file, fault.name);
             let cells = cells.join("; ");
             writeln!(page, "| `{file}` | {name} | {mark}{cells} |").unwrap();

@@ -189,20 +189,20 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     });
     let studies: Vec<CaseStudy> = studies.collect();
     let speed = Speed::of(&studies);
+    let wrapped = |text: &str| {
+        let options = textwrap::Options::new(LINE);
+        let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
+        textwrap::fill(text, options)
+    };
     let nights = || kept.iter().map(|(_, night)| night);
     let outcomes = match (nights().min(), nights().max()) {
         (Some(oldest), Some(newest)) => {
             let counts = Summary::new("", studies).counts.to_string();
             let counts: Vec<&str> = counts.lines().take(2).collect();
             let of = format!("Nights of {oldest} to {newest}, each run judged by the program of its night:");
-            format!("{of}\n{}\n", counts.join("\n"))
+            format!("{}\n", wrapped(&format!("{of} {}", counts.join(" "))))
         }
         _ => String::new(),
-    };
-    let wrapped = |text: &str| {
-        let options = textwrap::Options::new(LINE);
-        let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
-        textwrap::fill(text, options)
     };
     let prices = match speed.is_empty() {
         true => String::new(),
