@@ -53,7 +53,7 @@ parameters! { pub(super) const:
         "newmark: α, at least (δ + ½)²/4";
     DELTA = "delta", "-", "0.5", number(0.5, 2.0, false),
         "newmark: δ, at least ½";
-    TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-2, false),
+    TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-8, false),
         "implicit: residual of a converged step over the loads";
 }
 

@@ -55,7 +55,7 @@ parameters! {
         stabilisation: Stabilised = Stabilised::Ghost.by_default(), "what holds functions that see hardly any material";
         stabilisation_factor: f64 = real("-", "0.01", 1e-8, 1.0),
             "of ghost its share of Young's modulus, of soft that of the stiffness of the mesh";
-        tolerance: f64 = real("-", "1e-9", 1e-13, 1e-2), "residual of a converged step over the loads";
+        tolerance: f64 = real("-", "1e-9", 1e-13, 1e-8), "residual of a converged step over the loads";
     }
 }
 

@@ -46,7 +46,7 @@ parameters! {
         ghost_displacement: f64 = real("-", "0", 0.0, 10.0), "ghost penalty of the displacement over G";
         ghost_pressure: f64 = real("-", "0", 0.0, 10.0), "ghost penalty of the pressure over κ₀ Δt";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
 }
 

@@ -150,12 +150,18 @@ impl Setup<Footing> {
         }
     }
 
+    /// Why the ground is too small for the mechanism to spread as in an endless one, if it is.
+    pub(super) fn has_room(&self) -> Result<(), String> {
+        match self.domain_width.min(self.domain_depth) < ROOM {
+            true => Err(format!("the ground is less than {ROOM} B wide or deep")),
+            false => Ok(()),
+        }
+    }
+
     /// The finite-element curve; that of other parameters has the same limit load.
     pub(super) fn reference_curve(&self) -> Result<Curve, String> {
         let document = document()?;
-        if self.domain_width < ROOM || self.domain_depth < ROOM {
-            return Err(format!("the ground is less than {ROOM} B wide or deep"));
-        }
+        self.has_room()?;
         if let Elements::Vanishing = self.elements()? {
             if !self.rough {
                 return Err("the extrapolated reference is that of a rough footing".to_owned());

@@ -25,7 +25,7 @@ parameters! {
             "force F on half a plate: small, so that what is finite of the strain, F/(G a), is below all errors";
         steps: i32 = whole("-", "240", 30, 100_000), "equal steps to T = 0.3";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
 }
 

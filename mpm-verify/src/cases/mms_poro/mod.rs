@@ -59,7 +59,7 @@ parameters! {
         predictor: Start = Start::Particles.by_default(),
             "where Newton's method begins to look for pressures: at the volume average of the particles', or at zero";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
 }
 

@@ -78,7 +78,7 @@ parameters! {
         plastic_compressibility: f64 = real("-", "0.05", 0.0, 1.0), "cam-clay: λ − κ";
         shape_alpha: f64 = real("-", "1", 0.0, 1.0), "cam-clay: α of Collins and Hilder, 1 the ellipse";
         shape_gamma: f64 = real("-", "1", 0.0, 1.0), "cam-clay: γ of Collins and Hilder, 1 the ellipse";
-        tolerance: f64 = real("-", "1e-9", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        tolerance: f64 = real("-", "1e-9", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
 }
 

@@ -30,7 +30,7 @@ parameters! {
         first_step: f64 = real("-", "0", 0.0, 1e4),
             "c_v Δt/h² of the first step, with h the cells of the displacement; the others grow by a factor. 0: all equal";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
 }
 
