@@ -25,12 +25,17 @@ pub(super) fn files(root: &Path, case: &str) -> [PathBuf; 2] {
     ["csv", "png"].map(|e| root.join(format!("{case}-field.{e}")))
 }
 
-/// The particles of a run in the window: number in seeding order, position and value.
-fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
-    let path = match view.time {
+/// The table of a run in `folder` that has the field.
+pub(super) fn table(view: &FieldView, folder: &Path) -> PathBuf {
+    match view.time {
         Some(time) => snapshot_file(folder, time),
         None => folder.join("particles.csv"),
-    };
+    }
+}
+
+/// The particles of a run in the window: number in seeding order, position and value.
+fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
+    let path = table(view, folder);
     let table = Table::read(&path)?;
     let [xs, ys, values] = ["x", "y", view.value].map(|name| table.column(name));
     if values.len() != table.rows() {

@@ -67,9 +67,12 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
     kept.dedup();
     let mut response: f64 = 0.0;
     let mut points = Vec::new();
-    for k in 0..total.min(values[1].len()) {
-        let difference = (values[0][k] - values[1][k]).abs();
-        if times[0][k] != times[1][k] || !difference.is_finite() {
+    let mut twin = values[1].iter().zip(times[1]);
+    for k in 0..total {
+        // A slim run lacks rows that its twin has.
+        let same = twin.find(|(_, time)| **time >= times[0][k]).filter(|(_, time)| **time == times[0][k]);
+        let difference = same.map_or(f64::NAN, |(value, _)| (values[0][k] - value).abs());
+        if !difference.is_finite() {
             break;
         }
         response = response.max(difference);

@@ -79,6 +79,13 @@ pub fn why_none(case: &Case, record: &Record) -> Option<String> {
     }
 }
 
+/// The table from which the golden field of a case is taken, if it is one of the run in `folder`.
+#[must_use]
+pub fn field_table(case: &Case, record: &Record, folder: &Path) -> Option<PathBuf> {
+    let view = case.field.filter(|_| runs(case).first() == Some(&record.folder()))?;
+    Some(field::table(&view, folder))
+}
+
 /// Particle–node pairs of all golden runs of a case whose count does not answer rounding.
 ///
 /// # Errors

@@ -8,7 +8,7 @@ use crate::cases;
 use crate::draw::write_small_png;
 use crate::error::Error;
 use crate::files::{DOCUMENT, discard, make_folder, read, write_whole};
-use crate::gallery::{Gallery, Picture};
+use crate::gallery::Gallery;
 use crate::record::Record;
 use crate::study::convergence::convergence;
 use crate::study::gather::Gathered;
@@ -144,7 +144,7 @@ fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
     let found = gathered.judge(|_| Ok(Vec::new()))?;
     let tier = Tier::parse(&found.tier)?;
     for study in &found.cases {
-        let _: Vec<Picture> = draw_own(cases::find(&study.case)?, study, &gathered, out)?;
+        draw_own(cases::find(&study.case)?, study, &gathered, out)?;
     }
     Ok(tier)
 }

@@ -22,7 +22,7 @@ pub fn draw(case: &Case, record: &Record, folder: &Path) -> Result<Vec<Picture>,
     let study = CaseStudy::new(&record.case, vec![record.clone()]);
     let gathered = Gathered::single(record.clone(), folder);
     owning(folder, || {
-        let mut pictures = draw_own(case, &study, &gathered, folder)?;
+        let (mut pictures, _) = draw_own(case, &study, &gathered, folder)?;
         pictures.extend(own(case, record, folder, folder)?);
         Ok(pictures)
     })

@@ -3,6 +3,7 @@
 pub mod checkpoint;
 pub mod series;
 pub mod size;
+pub mod slim;
 pub mod vtu;
 
 use crate::case::Case;
@@ -251,8 +252,8 @@ fn tables(folder: &Path) -> Result<Vec<String>, Error> {
 pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
     require_inside(folder, Path::new(SNAPSHOTS))?;
     let there = tables(folder)?;
-    let needed = [series::FILE, PARTICLES].map(str::to_owned);
-    let names: BTreeSet<&String> = record.files.keys().chain(&there).chain(&needed).collect();
+    let needed = series::FILE.to_owned();
+    let names: BTreeSet<&String> = record.files.keys().chain(&there).chain([&needed]).collect();
     for name in names {
         let found = match there.contains(name) {
             true => Some(Mark::of(&read(&folder.join(name), TABLE)?)),

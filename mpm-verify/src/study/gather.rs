@@ -166,6 +166,8 @@ fn judged(
     let mut study = study.clone();
     let case = cases::find(&study.case)?;
     study.records.par_iter_mut().try_for_each(|record| {
+        // What it vouches for was compared when it was read.
+        record.files.clear();
         record.verdicts = judge(case, record);
         record.verdicts.extend(drift(record)?);
         Ok::<(), Error>(())
