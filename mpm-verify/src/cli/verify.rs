@@ -1,23 +1,18 @@
 //! The commands `verify` and `report`: runs of a tier, judged and reported.
 
-use super::{Told, case, memory, or_all_cores, saving, say, say_json, threads, tier};
+use super::*;
 use crate::progress;
-use clap::Args;
-use mpm_verify::case::{Case, Tier};
-use mpm_verify::cases;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
 use mpm_verify::golden::{self, Goldens};
 use mpm_verify::night::Night;
 use mpm_verify::record::Record;
-use mpm_verify::report::{Files, describe, discard_report, write_report};
+use mpm_verify::report::{Files, discard_report, write_report};
 use mpm_verify::run::checkpoint;
 use mpm_verify::run::size::GIBIBYTE;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};
 use mpm_verify::study::schedule::{make_runs, require_memory};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct Verify {
