@@ -120,27 +120,18 @@ impl Finding {
         source: impl Into<String>,
     ) -> Self {
         Self {
-            metric: metric.into(),
             value: Some(value),
             reference: Some(reference),
             tolerance: Some(tolerance),
             holds: Some((value - reference).abs() <= tolerance),
-            scale: None,
-            source: source.into(),
+            ..Self::not_applicable(metric, source)
         }
     }
 
     /// value ≤ bound.
     pub(crate) fn at_most(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
-        Self {
-            metric: metric.into(),
-            value: Some(value),
-            reference: None,
-            tolerance: Some(bound),
-            holds: Some(value <= bound),
-            scale: None,
-            source: source.into(),
-        }
+        let holds = Some(value <= bound);
+        Self { value: Some(value), tolerance: Some(bound), holds, ..Self::not_applicable(metric, source) }
     }
 
     /// value > bound.

@@ -35,8 +35,8 @@ pub fn own_record(folder: &Path, case: &Case, spec: &RunSpec) -> Result<Option<R
     let record: Record = read_versioned(&path, record::SCHEMA)?;
     let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
     let verdict = match asked.require(&Identity::of_record(&record)) {
-        Err(Refusal::Program { .. }) => Ok(()),
-        Err(Refusal::Parameter { .. }) if record.version != Version::current() => Ok(()),
+        Err(Refusal::Program(..)) => Ok(()),
+        Err(Refusal::Parameter(..)) if record.version != Version::current() => Ok(()),
         Ok(()) => require_possible(&record),
         refused => refused,
     };
