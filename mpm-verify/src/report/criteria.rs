@@ -1,11 +1,11 @@
 //! Tables over several cases: every remedy, and every space of the pressure, against every criterion; transfers and particles
 //! per cell.
 
-use crate::record::Record;
+use super::prelude::*;
 use crate::results::{
     Column, Format, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order, percent, scientific, share,
 };
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::scheme::TransferName;
 
 /// The bases that are compared.
 pub(super) const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];

@@ -3,13 +3,11 @@
 
 use super::document::terminal::{WIDTH, cut, painted, wrapped};
 use super::document::{Document, Text};
+use super::prelude::*;
 use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
-use crate::case::{Case, Tier};
+use crate::case::Tier;
 use crate::error::ExitCode;
-use crate::record::Record;
-use crate::study::judge::{exit_code, outcome_of_run};
-use crate::study::summary::Summary;
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::study::judge::exit_code;
 use serde_json::{Value, json};
 use std::fmt::Write;
 

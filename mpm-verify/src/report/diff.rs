@@ -1,19 +1,16 @@
 //! The difference of two report folders.
 
 use super::convergence::CPU_PICTURE;
+use super::prelude::*;
 use super::words::{number, outcome};
 use crate::draw::triptych::{different_pixels, triptych};
 use crate::draw::write_small_png;
-use crate::error::{Error, ExitCode};
-use crate::files::{self, make_folder, read_versioned, write_whole};
-use crate::study::summary::{SCHEMA, Summary};
-use crate::table::Sheet;
-use crate::verdict::Verdict;
+use crate::error::ExitCode;
+use crate::files::{self, make_folder, read_versioned};
+use crate::study::summary::SCHEMA;
 use image::RgbImage;
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 /// A picture of two reports.
 struct PictureChange {

@@ -21,6 +21,7 @@ pub mod junit;
 pub mod keep;
 mod map;
 mod pages;
+mod prelude;
 mod price;
 mod rivals;
 mod rows;
@@ -37,20 +38,11 @@ mod values;
 mod verdicts;
 mod words;
 
-use crate::case::Case;
-use crate::cases;
-use crate::error::Error;
-use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json, write_whole};
-use crate::gallery::{Gallery, Picture};
+use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json};
 use crate::golden::{self, Goldens};
-use crate::night::Night;
-use crate::record::Record;
 use crate::run::{series, slim::slim};
-use crate::study::gather::Gathered;
-use crate::study::summary::{CaseStudy, Summary};
+use prelude::*;
 use speed::Speed;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 const SUMMARY: &str = "summary.json";
 

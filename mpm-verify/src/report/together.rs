@@ -1,13 +1,9 @@
 //! Pictures of several cases, a panel each: those that pages of cases share.
 
-use crate::case::Case;
-use crate::cases;
-use crate::draw::{Dash, ReferenceLine, Series};
-use crate::error::Error;
+use super::prelude::*;
+use crate::draw::{Dash, ReferenceLine};
 use crate::figure::{Figure, Panel};
-use crate::gallery::Gallery;
-use crate::record::Record;
-use crate::scheme::{NameError, Scheme};
+use crate::scheme::NameError;
 
 /// Colour of what is predicted.
 const PREDICTION: usize = 7;

@@ -5,11 +5,8 @@ mod page;
 pub(super) mod terminal;
 
 use super::words;
-use crate::gallery::Picture;
-use crate::table::Sheet;
-use crate::verdict::Outcome;
+use crate::report::prelude::*;
 use serde::Serialize;
-use std::path::Path;
 
 /// A part of a text: its kind, words, and target of a link or class of a mark.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,21 +1,13 @@
 //! The index: recommended schemes, the result and cost of every scheme in every case, and the cases.
 
 use super::{docs, file_of, in_repository, pictures, run};
-use crate::cases;
-use crate::distinct;
-use crate::error::Error;
-use crate::gallery::Picture;
-use crate::record::Record;
 use crate::report::advice::advice;
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text};
+use crate::report::prelude::*;
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
 use crate::report::verdicts::{self, tightest};
 use crate::report::{map, words::OUTCOMES};
-use crate::study::judge::outcome_of_run;
-use crate::study::summary::{CaseStudy, Summary};
-use crate::verdict::{Outcome, Verdict};
-use std::path::Path;
 
 /// The sections and the other files of a report.
 pub(super) fn links() -> Vec<Text> {
