@@ -1,13 +1,7 @@
 //! The golden numbers of a run, from its files and those of its perturbed twin.
 
-use super::bare;
 use super::format::{Column, Point, Run, SERIES, WORK};
-use crate::cases;
-use crate::error::Error;
-use crate::record::Record;
-use crate::run::series;
-use crate::table::Table;
-use std::path::Path;
+use super::*;
 
 /// Rows of a series that are kept of each watched column.
 const ROWS: usize = 8;

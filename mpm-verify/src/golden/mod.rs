@@ -21,8 +21,11 @@ use crate::cases;
 use crate::check::Finding;
 use crate::error::Error;
 use crate::record::Record;
+use crate::run::series;
 use crate::spec::RunSpec;
+use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
+use image::RgbImage;
 use std::path::{Path, PathBuf};
 
 /// The tier whose runs carry goldens.

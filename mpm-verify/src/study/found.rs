@@ -1,14 +1,9 @@
 //! Results of runs in their folders.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::files::read_versioned;
-use crate::parameter::Parameters;
-use crate::record::{self, Record, Version};
+use super::*;
+use crate::record;
 use crate::run::checkpoint::{Identity, Refusal};
-use crate::run::{RECORD, require_tables};
-use crate::spec::RunSpec;
-use std::path::Path;
+use crate::run::require_tables;
 
 /// The record of a run in `folder`, if the run has ended there. One of this program is of the parameters asked for, says
 /// what can be, and vouches for the tables beside it; of another program's only the run is known.

@@ -5,17 +5,9 @@ use super::found::record_in;
 use super::judge::judge;
 use super::plan::{Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
-use crate::case::{Case, Tier, find_level};
-use crate::cases;
-use crate::error::Error;
-use crate::files::{read_versioned, require_inside};
-use crate::record::{self, Record};
-use crate::run::RECORD;
-use crate::spec::RunSpec;
-use crate::verdict::Verdict;
+use super::*;
+use crate::record;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// The runs of a whole plan, gathered from the folders of its shards.
 #[derive(Debug)]
