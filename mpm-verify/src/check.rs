@@ -3,8 +3,10 @@
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::verdict::{Kind, Outcome, Verdict};
+use serde::Serialize;
 
 /// A check of a case.
+#[derive(Serialize)]
 pub struct Check {
     /// Name.
     pub name: &'static str,
@@ -13,6 +15,7 @@ pub struct Check {
     /// Its demand, the schemes it applies to, and the origin of the tolerance.
     pub statement: &'static str,
     /// Data by which it is decided, and the rule.
+    #[serde(skip)]
     pub on: On,
 }
 

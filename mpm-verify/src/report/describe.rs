@@ -107,20 +107,16 @@ pub fn explain_json(case: &Case) -> Value {
         let allowed = p.domain.to_string();
         json!({"name": p.name, "unit": p.unit, "default": p.default, "allowed": allowed, "meaning": p.meaning})
     });
-    let metrics = case.metrics.iter();
-    let metrics = metrics.map(|m| json!({"name": m.name, "unit": m.unit, "meaning": m.meaning}));
-    let checks = case.checks.iter();
-    let checks = checks.map(|c| json!({"name": c.name, "kind": c.kind, "statement": c.statement}));
     json!({
         "case": case.name,
         "title": case.title,
         "description": case.description,
         "parameters": parameters.collect::<Value>(),
         "schemes": case.schemes(),
-        "levels": case.levels.iter().map(|l| json!({"name": l.name, "h": l.h})).collect::<Value>(),
-        "metrics": metrics.collect::<Value>(),
+        "levels": case.levels,
+        "metrics": case.metrics,
         "wanted": case.wanted,
-        "checks": checks.collect::<Value>(),
+        "checks": case.checks,
         "references": case.references,
         "limits": case.limits,
     })

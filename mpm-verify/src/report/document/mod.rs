@@ -111,6 +111,17 @@ impl Text {
     }
 }
 
+/// Texts of pages, by section; paragraphs are apart by an empty line.
+const PROSE: &str = include_str!("../../../assets/prose.md");
+
+/// The paragraphs of a section of the pages' texts, each on one line.
+pub(super) fn prose(section: &str) -> impl Iterator<Item = Text> {
+    let sections = PROSE.split("## ").filter_map(|part| part.split_once('\n'));
+    let own = sections.filter(move |(name, _)| *name == section);
+    let paragraphs = own.flat_map(|(_, text)| text.trim_end().split("\n\n"));
+    paragraphs.map(|paragraph| Text::marked(&paragraph.replace('\n', " ")))
+}
+
 /// A cell of a table.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(super) struct Cell {
