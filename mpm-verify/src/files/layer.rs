@@ -20,7 +20,7 @@ fn pass(_: Step, _: &Path) -> io::Result<()> {
     Ok(())
 }
 #[cfg(test)]
-pub(super) mod fixture;
+pub(crate) mod fixture;
 #[cfg(test)]
 use fixture::pass;
 
