@@ -3,8 +3,10 @@
 use crate::metric::Metric;
 use crate::record::Record;
 use crate::verdict::{Kind, Outcome, Verdict};
+use serde::Serialize;
 
 /// A check of a case.
+#[derive(Serialize)]
 pub struct Check {
     /// Name.
     pub name: &'static str,
@@ -13,6 +15,7 @@ pub struct Check {
     /// Its demand, the schemes it applies to, and the origin of the tolerance.
     pub statement: &'static str,
     /// Data by which it is decided, and the rule.
+    #[serde(skip)]
     pub on: On,
 }
 
@@ -120,27 +123,18 @@ impl Finding {
         source: impl Into<String>,
     ) -> Self {
         Self {
-            metric: metric.into(),
             value: Some(value),
             reference: Some(reference),
             tolerance: Some(tolerance),
             holds: Some((value - reference).abs() <= tolerance),
-            scale: None,
-            source: source.into(),
+            ..Self::not_applicable(metric, source)
         }
     }
 
     /// value ≤ bound.
     pub(crate) fn at_most(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
-        Self {
-            metric: metric.into(),
-            value: Some(value),
-            reference: None,
-            tolerance: Some(bound),
-            holds: Some(value <= bound),
-            scale: None,
-            source: source.into(),
-        }
+        let holds = Some(value <= bound);
+        Self { value: Some(value), tolerance: Some(bound), holds, ..Self::not_applicable(metric, source) }
     }
 
     /// value > bound.

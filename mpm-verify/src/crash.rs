@@ -11,7 +11,7 @@ use crate::golden::Goldens;
 use crate::night::Night;
 use crate::record::Record;
 use crate::report::keep::keep;
-use crate::report::write_report;
+use crate::report::{Files, write_report};
 use crate::run::checkpoint::Saving;
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::spec::RunSpec;
@@ -216,7 +216,7 @@ fn report(root: &Path, from: &[&str], out: &str, night: Option<&Night>) -> Resul
     let gathered = Gathered::read(&from)?;
     let goldens = Goldens::open(&root.join("golden"))?;
     let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
-    write_report(&gathered, judged, &goldens, night, &root.join(out)).map(drop)
+    write_report(&gathered, judged, &goldens, night, (&root.join(out), Files::All)).map(drop)
 }
 
 /// A command that changes files below a folder.

@@ -15,6 +15,10 @@ pub(crate) const SLACK: f64 = 0.15;
 /// Number of finest levels or steps that decide an order.
 const DECIDING: usize = 3;
 
+/// What a check may hold for as long as it is there.
+pub(crate) trait Held: Send + Sync + 'static {}
+impl<T: Send + Sync + 'static> Held for T {}
+
 type Of<P, T> = Box<dyn Fn(&Run<P>) -> T + Send + Sync>;
 
 /// A quantity of a run: a metric, or a number computed from the run, by name.
@@ -25,7 +29,7 @@ pub(crate) struct Quantity<P> {
 
 impl<P> Quantity<P> {
     /// A number that follows from the run.
-    pub(crate) fn new(name: impl Into<String>, value: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn new(name: impl Into<String>, value: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self { name: name.into(), value: Box::new(value) }
     }
 
@@ -103,49 +107,43 @@ impl<P: ParameterSet> Demand<P> {
     /// |quantity − reference| ≤ tolerance.
     pub(crate) fn within(
         quantity: impl Into<Quantity<P>>,
-        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        reference: impl Fn(&Run<P>) -> f64 + Held,
+        tolerance: impl Fn(&Run<P>) -> f64 + Held,
     ) -> Self {
         let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
         Self::new(quantity.into(), Bound::Within { reference, tolerance })
     }
 
     /// quantity ≤ bound.
-    pub(crate) fn at_most(
-        quantity: impl Into<Quantity<P>>,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn at_most(quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self::new(quantity.into(), Bound::AtMost(Box::new(bound)))
     }
 
     /// quantity > bound.
-    pub(crate) fn above(
-        quantity: impl Into<Quantity<P>>,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn above(quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self::new(quantity.into(), Bound::Above(Box::new(bound)))
     }
 
     /// Says nothing of this quantity where `holds` is false.
-    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Send + Sync + 'static) -> Self {
+    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Held) -> Self {
         self.gates.push(Gate::When(Box::new(holds)));
         self
     }
 
     /// Does not judge this quantity where there is a reason.
-    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static) -> Self {
+    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Held) -> Self {
         self.gates.push(Gate::Unless(Box::new(reason)));
         self
     }
 
     /// The magnitude of a wrong value, where the reference is zero or a difference.
-    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         let scale: Of<P, f64> = Box::new(scale);
         Self { scale: Some(scale), ..self }
     }
 
     /// The source of reference and tolerance, where it differs from that of the check.
-    pub(crate) fn because_of(self, why: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Self {
+    pub(crate) fn because_of(self, why: impl Fn(&Run<P>) -> String + Held) -> Self {
         let why: Of<P, String> = Box::new(why);
         Self { why: Some(why), ..self }
     }
@@ -237,13 +235,13 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// Says nothing of runs where `holds` is false.
-    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Send + Sync + 'static) -> Self {
+    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Held) -> Self {
         self.gates.push(Gate::When(Box::new(holds)));
         self
     }
 
     /// Does not judge a run where there is a reason.
-    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Send + Sync + 'static) -> Self {
+    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Held) -> Self {
         self.gates.push(Gate::Unless(Box::new(reason)));
         self
     }
@@ -252,27 +250,19 @@ impl<P: ParameterSet> CheckOf<P> {
     pub(crate) fn within(
         self,
         quantity: impl Into<Quantity<P>>,
-        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        reference: impl Fn(&Run<P>) -> f64 + Held,
+        tolerance: impl Fn(&Run<P>) -> f64 + Held,
     ) -> Self {
         self.each([Demand::within(quantity, reference, tolerance)])
     }
 
     /// quantity ≤ bound; of a pair of runs, the number of the two.
-    pub(crate) fn at_most(
-        self,
-        quantity: impl Into<Quantity<P>>,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn at_most(self, quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         self.each([Demand::at_most(quantity, bound)])
     }
 
     /// quantity > bound.
-    pub(crate) fn above(
-        self,
-        quantity: impl Into<Quantity<P>>,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn above(self, quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         self.each([Demand::above(quantity, bound)])
     }
 
@@ -286,7 +276,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// The magnitude of a wrong value, where the reference is zero or a difference.
-    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         let scale: Of<P, f64> = Box::new(scale);
         Self { scale: Some(scale), ..self }
     }
@@ -304,7 +294,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// The same with another name of the quantity.
-    pub(crate) fn named(mut self, named: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Self {
+    pub(crate) fn named(mut self, named: impl Fn(&Run<P>) -> String + Held) -> Self {
         if let Subject::Order { name, .. } = &mut self.subject {
             *name = Box::new(named);
         }
@@ -312,18 +302,18 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// Each run that passes `when` beside the first other run that is its `partner`.
-    pub(crate) fn pairs(self, partner: impl Fn(&Run<P>, &Run<P>) -> bool + Send + Sync + 'static) -> PairsOf<P> {
+    pub(crate) fn pairs(self, partner: impl Fn(&Run<P>, &Run<P>) -> bool + Held) -> PairsOf<P> {
         PairsOf { check: self, partner: Box::new(partner) }
     }
 
     /// Findings of a function on one run, with their sources.
-    pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Send + Sync + 'static) -> Check {
+    pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Held) -> Check {
         let subject = Subject::Own(Box::new(found));
         Self { subject, ..self }.into()
     }
 
     /// Findings of a function on all runs of the case, with their sources; it selects its runs itself.
-    pub(crate) fn study(self, found: impl Fn(&[Record]) -> Vec<Finding> + Send + Sync + 'static) -> Check {
+    pub(crate) fn study(self, found: impl Fn(&[Record]) -> Vec<Finding> + Held) -> Check {
         Check { name: self.name, kind: self.kind, statement: self.statement, on: On::Study(Box::new(found)) }
     }
 
@@ -333,7 +323,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     /// The source of reference and tolerance, by run.
-    pub(crate) fn because_of(mut self, why: impl Fn(&Run<P>) -> String + Send + Sync + 'static) -> Check {
+    pub(crate) fn because_of(mut self, why: impl Fn(&Run<P>) -> String + Held) -> Check {
         self.why = Box::new(why);
         self.into()
     }
@@ -438,8 +428,8 @@ pub(crate) struct PairsOf<P> {
 impl<P: ParameterSet> PairsOf<P> {
     fn bound(
         self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
         bound: Bound<P>,
     ) -> CheckOf<P> {
         let (partner, name, value) = (self.partner, Box::new(name), Box::new(value));
@@ -450,9 +440,9 @@ impl<P: ParameterSet> PairsOf<P> {
     /// value ≤ bound, by the name, the value of run and partner, and the bound of the run.
     pub(crate) fn at_most(
         self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
+        bound: impl Fn(&Run<P>) -> f64 + Held,
     ) -> CheckOf<P> {
         self.bound(name, value, Bound::AtMost(Box::new(bound)))
     }
@@ -460,9 +450,9 @@ impl<P: ParameterSet> PairsOf<P> {
     /// value > bound.
     pub(crate) fn above(
         self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
-        bound: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
+        bound: impl Fn(&Run<P>) -> f64 + Held,
     ) -> CheckOf<P> {
         self.bound(name, value, Bound::Above(Box::new(bound)))
     }
@@ -470,10 +460,10 @@ impl<P: ParameterSet> PairsOf<P> {
     /// |value − reference| ≤ tolerance.
     pub(crate) fn within(
         self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Send + Sync + 'static,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync + 'static,
-        reference: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-        tolerance: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
+        reference: impl Fn(&Run<P>) -> f64 + Held,
+        tolerance: impl Fn(&Run<P>) -> f64 + Held,
     ) -> CheckOf<P> {
         let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
         self.bound(name, value, Bound::Within { reference, tolerance })

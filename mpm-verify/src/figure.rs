@@ -5,8 +5,7 @@
 
 use crate::draw::style::{history, series};
 use crate::draw::{
-    Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges,
-    share_ranges_of_columns,
+    Chart, Dash, Marker, ReferenceLine, Scale, Series, SlopeTriangle, draw_charts, share_ranges_of_columns,
 };
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -346,7 +345,7 @@ impl<'a> Figure<'a> {
         let own: Vec<_> = charts.iter().map(|c| (c.x_range, c.y_range)).collect();
         match self.shared {
             Shared::Nothing => {}
-            Shared::All => share_ranges(&place, &mut charts)?,
+            Shared::All => share_ranges_of_columns(&place, &mut charts, 1)?,
             Shared::Columns => share_ranges_of_columns(&place, &mut charts, columns)?,
         }
         for (chart, (x, y)) in charts.iter_mut().zip(own) {

@@ -5,7 +5,7 @@ pub mod lock;
 
 pub(crate) use layer::Output;
 #[cfg(test)]
-pub(crate) use layer::fault;
+pub(crate) use layer::fixture as fault;
 
 use crate::error::{Error, is_unfit};
 use serde::de::DeserializeOwned;
@@ -188,9 +188,7 @@ pub fn write_parts(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
 /// # Errors
 /// The file can't be written.
 pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
-    let mut text = serde_json::to_string_pretty(value).map_err(|e| Error::file(path, e))?;
-    text.push('\n');
-    write_whole(path, text.as_bytes())
+    write_text(path, serde_json::to_string_pretty(value))
 }
 
 /// Writes JSON without indentation, for documents of many megabytes.
@@ -198,8 +196,11 @@ pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Erro
 /// # Errors
 /// The file can't be written.
 pub fn write_dense_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
-    let mut text = serde_json::to_string(value).map_err(|e| Error::file(path, e))?;
-    text.push('\n');
+    write_text(path, serde_json::to_string(value))
+}
+
+fn write_text(path: &Path, text: serde_json::Result<String>) -> Result<(), Error> {
+    let text = text.map_err(|e| Error::file(path, e))? + "\n";
     write_whole(path, text.as_bytes())
 }
 

@@ -6,6 +6,8 @@ use crate::files::{snapshot_file, write_csv};
 use crate::record::Record;
 use crate::table::Table;
 use serde::{Deserialize, Serialize};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// A picture of a report.
@@ -43,13 +45,14 @@ pub struct Gallery<'a> {
     folder: FolderOf<'a>,
     out: &'a Path,
     pictures: Vec<Picture>,
+    read: RefCell<BTreeSet<PathBuf>>,
 }
 
 impl<'a> Gallery<'a> {
     /// Gallery of runs whose outputs lie in `folder`, for a report in `out`.
     #[must_use]
     pub fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
-        Self { case, records, folder, out, pictures: Vec::new() }
+        Self { case, records, folder, out, pictures: Vec::new(), read: RefCell::default() }
     }
 
     /// Reads a table that a run has written.
@@ -57,7 +60,7 @@ impl<'a> Gallery<'a> {
     /// # Errors
     /// The run is not of this report, or the file is missing or damaged.
     pub fn table(&self, record: &Record, file: &str) -> Result<Table, Error> {
-        Table::read(&(self.folder)(record)?.join(file))
+        self.read((self.folder)(record)?.join(file))
     }
 
     /// Whether a run has written a file.
@@ -74,7 +77,13 @@ impl<'a> Gallery<'a> {
     /// The run is not of this report, or the file is damaged.
     pub fn snapshot(&self, record: &Record, time: f64) -> Result<Option<Table>, Error> {
         let file = snapshot_file(&(self.folder)(record)?, time);
-        file.exists().then(|| Table::read(&file)).transpose()
+        file.exists().then(|| self.read(file)).transpose()
+    }
+
+    fn read(&self, file: PathBuf) -> Result<Table, Error> {
+        let table = Table::read(&file);
+        self.read.borrow_mut().insert(file);
+        table
     }
 
     /// Where a file of the case's folder goes.
@@ -107,9 +116,9 @@ impl<'a> Gallery<'a> {
         self.pictures.push(Picture { file: format!("{}/{file}", self.case), caption: caption.into() });
     }
 
-    /// The pictures, in the order they were hung.
+    /// The pictures, in the order they were hung, and the tables from which they were drawn.
     #[must_use]
-    pub fn pictures(self) -> Vec<Picture> {
-        self.pictures
+    pub fn done(self) -> (Vec<Picture>, BTreeSet<PathBuf>) {
+        (self.pictures, self.read.into_inner())
     }
 }

@@ -1,10 +1,11 @@
 //! Metrics, and what is shown of them.
 
 use crate::parameter::Parameter;
+use serde::Serialize;
 use std::ops::RangeInclusive;
 
 /// A metric: what a run measures, by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Metric {
     /// Name.
     pub name: &'static str,

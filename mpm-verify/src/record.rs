@@ -68,96 +68,52 @@ pub struct Measured {
     pub unit: String,
 }
 
-/// Exact counts of what was done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the names are those of mpm_core::Work")]
-pub struct WorkDone {
-    pub particles: u64,
-    pub nodes: u64,
-    pub steps: u64,
-    pub particle_steps: u64,
-    pub particle_node_pairs: u64,
-    pub projections: u64,
-    pub sorts: u64,
-    #[serde(default)]
-    pub newton_iterations: u64,
-    #[serde(default)]
-    pub linear_iterations: u64,
-    #[serde(default)]
-    pub assemblies: u64,
-    #[serde(default)]
-    pub factorisations: u64,
-    #[serde(default)]
-    pub analyses: u64,
-    #[serde(default)]
-    pub nonzeros: u64,
-}
-
-impl WorkDone {
-    /// The work of a body, this after `earlier`.
-    #[must_use]
-    pub fn after(self, earlier: Self) -> Self {
-        Self {
-            particles: self.particles,
-            nodes: self.nodes,
-            steps: self.steps + earlier.steps,
-            particle_steps: self.particle_steps + earlier.particle_steps,
-            particle_node_pairs: self.particle_node_pairs + earlier.particle_node_pairs,
-            projections: self.projections + earlier.projections,
-            sorts: self.sorts + earlier.sorts,
-            newton_iterations: self.newton_iterations + earlier.newton_iterations,
-            linear_iterations: self.linear_iterations + earlier.linear_iterations,
-            assemblies: self.assemblies + earlier.assemblies,
-            factorisations: self.factorisations + earlier.factorisations,
-            analyses: self.analyses + earlier.analyses,
-            nonzeros: self.nonzeros + earlier.nonzeros,
+/// Exact counts by the names of those of `mpm_core::Work`: what a body has now, what adds up, and what adds up of Newton's
+/// method.
+macro_rules! counts {
+    ($($own:ident),*; $($sum:ident),*; $($newton:ident),*) => {
+        /// Exact counts of what was done.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+        #[allow(missing_docs, reason = "the names are those of mpm_core::Work")]
+        pub struct WorkDone {
+            $(pub $own: u64,)*
+            $(pub $sum: u64,)*
+            $(#[serde(default)] pub $newton: u64,)*
         }
-    }
 
-    /// The counts by name; those of Newton's method where there are any.
-    #[must_use]
-    pub fn counts(&self) -> Vec<(&'static str, u64)> {
-        let of_all = [
-            ("particles", self.particles),
-            ("nodes", self.nodes),
-            ("steps", self.steps),
-            ("particle_steps", self.particle_steps),
-            ("particle_node_pairs", self.particle_node_pairs),
-            ("projections", self.projections),
-            ("sorts", self.sorts),
-        ];
-        let of_newton = [
-            ("newton_iterations", self.newton_iterations),
-            ("linear_iterations", self.linear_iterations),
-            ("assemblies", self.assemblies),
-            ("factorisations", self.factorisations),
-            ("analyses", self.analyses),
-            ("nonzeros", self.nonzeros),
-        ];
-        let counted = of_newton.into_iter().filter(|_| self.newton_iterations > 0);
-        of_all.into_iter().chain(counted).collect()
-    }
-}
+        impl WorkDone {
+            /// The work of a body, this after `earlier`.
+            #[must_use]
+            pub fn after(self, earlier: Self) -> Self {
+                Self {
+                    $($own: self.$own,)*
+                    $($sum: self.$sum + earlier.$sum,)*
+                    $($newton: self.$newton + earlier.$newton,)*
+                }
+            }
 
-impl From<mpm_core::Work> for WorkDone {
-    fn from(w: mpm_core::Work) -> Self {
-        Self {
-            particles: w.particles,
-            nodes: w.nodes,
-            steps: w.steps,
-            particle_steps: w.particle_steps,
-            particle_node_pairs: w.particle_node_pairs,
-            projections: w.projections,
-            sorts: w.sorts,
-            newton_iterations: w.newton_iterations,
-            linear_iterations: w.linear_iterations,
-            assemblies: w.assemblies,
-            factorisations: w.factorisations,
-            analyses: w.analyses,
-            nonzeros: w.nonzeros,
+            /// The counts by name; those of Newton's method where there are any.
+            #[must_use]
+            pub fn counts(&self) -> Vec<(&'static str, u64)> {
+                let of_all = [$((stringify!($own), self.$own),)* $((stringify!($sum), self.$sum),)*];
+                let of_newton = [$((stringify!($newton), self.$newton)),*];
+                let counted = of_newton.into_iter().filter(|_| self.newton_iterations > 0);
+                of_all.into_iter().chain(counted).collect()
+            }
         }
-    }
+
+        impl From<mpm_core::Work> for WorkDone {
+            fn from(w: mpm_core::Work) -> Self {
+                Self { $($own: w.$own,)* $($sum: w.$sum,)* $($newton: w.$newton,)* }
+            }
+        }
+    };
 }
+counts!(
+    particles, nodes;
+    steps, particle_steps, particle_node_pairs, projections, sorts;
+    newton_iterations, linear_iterations, assemblies, factorisations, analyses, nonzeros
+);
 
 /// Time taken, over all pieces of a run that was resumed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

@@ -1,9 +1,10 @@
 //! One run: a scheme at a level, with the parameters that are changed.
 
 use crate::scheme::Scheme;
+use serde::Serialize;
 
 /// A level of refinement.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Level {
     /// Name.
     pub name: &'static str,

@@ -132,6 +132,17 @@ impl Table {
         self.columns.first().map_or(0, Vec::len)
     }
 
+    /// With this number of rows at most: evenly spaced ones, the last among them.
+    #[must_use]
+    pub fn thinned(self, most: usize) -> Self {
+        let total = self.rows();
+        if total <= most {
+            return self;
+        }
+        let thin = |c: Vec<f64>| (1..=most).map(|k| c[(k * total).div_ceil(most) - 1]).collect();
+        Self { columns: self.columns.into_iter().map(thin).collect(), ..self }
+    }
+
     /// The columns with their names and units.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
         let values = self.columns.iter().map(Vec::as_slice);

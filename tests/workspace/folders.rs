@@ -9,7 +9,7 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::{Command, Output};
 
-const RUN: &str = "cook/gimp-fbar-rate-flip/h2";
+const RUN: &str = "cook/gimp-fbar-consistent-flip/h2";
 /// A run of part of a second, too short to come to rest.
 const SHORT: [&str; 6] = ["run", "cook", "--remedy", "fbar-total", "--set", "max_periods=0.06"];
 const REST: [&str; 4] = ["--set", "rest_window=0.05", "--set", "load_ramp=0.03"];
@@ -51,7 +51,7 @@ fn change(path: &Path, pointer: &str, value: Value) {
 fn names_in_files_lead_nowhere() {
     let scene = Scene::new();
     let root = scene.report.parent().unwrap();
-    copy_tree(&scene.report.join(RUN), &root.join("victim/gimp-fbar-rate-flip/h2"));
+    copy_tree(&scene.report.join(RUN), &root.join("victim/gimp-fbar-consistent-flip/h2"));
     for file in ["data.csv", "fig.png", "study.json", "notes.txt", "drift/x/a.png"] {
         fs::create_dir_all(root.join("victim/drift/x")).unwrap();
         fs::write(root.join("victim").join(file), "mine").unwrap();

@@ -1,13 +1,9 @@
 //! The command `bench`: speed.
 
-use super::{or_all_cores, say, threads};
+use super::*;
 use crate::progress;
-use clap::Args;
 use clap::builder::{PossibleValuesParser, RangedU64ValueParser};
 use mpm_verify::bench::{self, Peers};
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Bench {

@@ -1,15 +1,11 @@
 //! The command `bless`: drift becomes the golden.
 
-use super::{case, or_all_cores, say, threads};
+use super::*;
 use crate::progress;
-use clap::Args;
 use mpm_verify::bless::{Blessing, Candidates};
-use mpm_verify::case::Case;
-use mpm_verify::error::{Error, ExitCode, is_unfit};
-use mpm_verify::files::lock::hold;
+use mpm_verify::error::is_unfit;
 use mpm_verify::golden::{self, Goldens};
 use mpm_verify::study::gather::Gathered;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Bless {

@@ -1,11 +1,7 @@
 //! The command `diff`: two reports compared.
 
-use super::{Told, say, say_json};
-use clap::Args;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
+use super::*;
 use mpm_verify::report::diff::Difference;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Diff {

@@ -1,12 +1,9 @@
 //! The commands `list`, `explain`, `exact` and `completions`: what the program knows.
 
-use super::{Cli, case, say, say_json, tier};
-use clap::{Args, CommandFactory};
+use super::*;
+use clap::CommandFactory;
 use clap_complete::Shell;
-use mpm_verify::case::{Case, Tier};
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::report::describe;
-use mpm_verify::{cases, exact, golden};
+use mpm_verify::{exact, golden};
 
 #[derive(Args)]
 pub(crate) struct List {

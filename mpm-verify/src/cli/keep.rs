@@ -1,16 +1,10 @@
 //! The commands `keep`, `tables`, `pictures` and `complete`: rows of runs that are kept, and pages filled from them.
 
-use super::{say, tier};
-use clap::Args;
-use mpm_verify::case::Tier;
-use mpm_verify::cases;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
+use super::*;
 use mpm_verify::record::Version;
 use mpm_verify::report::{keep::keep, shown, tables::Page};
 use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::plan::{Plan, Shard};
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Keep {

@@ -11,13 +11,17 @@ mod verify;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
-use mpm_verify::case::{Case, Tier};
+use mpm_verify::case::{Case, Tier, find_level};
 use mpm_verify::cases;
 use mpm_verify::error::{Error, ExitCode};
+use mpm_verify::files::lock::hold;
+use mpm_verify::report::describe;
 use mpm_verify::run::checkpoint::Saving;
 use mpm_verify::scheme::Scheme;
+use mpm_verify::spec::RunSpec;
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::path::PathBuf;
 use std::time::Duration;
 
 /// Verification bench of the locking-free material point method.
@@ -102,8 +106,8 @@ impl Command {
     /// Requested number of threads of a command that runs simulations.
     pub(crate) fn threads(&self) -> Option<usize> {
         match self {
-            Self::Run(command) => command.threads,
-            Self::Scene(command) => command.threads,
+            Self::Run(command) => command.making.threads,
+            Self::Scene(command) => command.making.threads,
             Self::Verify(command) => command.threads,
             Self::Bless(command) => command.threads,
             _ => None,

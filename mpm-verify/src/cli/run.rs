@@ -1,23 +1,19 @@
 //! The commands `run` and `scene`: one run, begun or resumed.
 
-use super::{Schemes, Told, case, memory, one_of, or_all_cores, saving, say, say_json, threads};
+use super::*;
 use crate::progress::Teller;
-use clap::Args;
-use mpm_verify::case::{Case, find_level};
 use mpm_verify::cases::scene::SceneFile;
-use mpm_verify::error::{Error, ExitCode, one_line};
-use mpm_verify::files::lock::hold;
+use mpm_verify::error::one_line;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
-use mpm_verify::report::{describe, discard_report, single};
+use mpm_verify::report::{discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
 use mpm_verify::run::size::{GIBIBYTE, Size, available_memory};
 use mpm_verify::run::{RECORD, require_tables};
-use mpm_verify::scheme::{BasisName, RemedyName, Scheme, TransferName};
-use mpm_verify::spec::RunSpec;
+use mpm_verify::scheme::{BasisName, RemedyName, TransferName};
 use mpm_verify::study::found::own_record;
 use mpm_verify::study::judge::{exit_code, judge, judged_run};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct Run {
@@ -49,23 +45,8 @@ pub(crate) struct Run {
     /// Perturb every initial coordinate by one unit in the last place
     #[arg(long)]
     perturb: bool,
-    /// Output folder for record, series, particles, VTU and pictures
-    #[arg(long, group = "folder")]
-    out: Option<PathBuf>,
-    /// Resume from this folder's checkpoint, or start; bit-identical results (replaces --out)
-    #[arg(long, value_name = "DIR", group = "folder")]
-    resume: Option<PathBuf>,
-    /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
-    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
-    checkpoint_every: u64,
-    /// Number of threads (default: all cores)
-    #[arg(long, value_parser = threads())]
-    pub(super) threads: Option<usize>,
-    /// Memory limit of the scene at its start, in GiB (default: the available memory)
-    #[arg(long, value_name = "GIB", value_parser = memory)]
-    memory: Option<f64>,
     #[command(flatten)]
-    told: Told,
+    pub(super) making: Making,
 }
 
 impl Run {
@@ -80,11 +61,7 @@ impl Run {
             None => case.levels[0],
         };
         let spec = RunSpec { scheme, level, set: self.set, perturbed: self.perturb };
-        let saving = saving(self.checkpoint_every, self.resume.is_some());
-        let folder = self.resume.or(self.out);
-        let place = folder.as_deref().map(|folder| (folder, saving));
-        let resources = (or_all_cores(self.threads), memory_of(self.memory));
-        run_one(case, &spec, place, resources, self.told)
+        self.making.run(case, &spec)
     }
 
     /// The scheme of the given parts, with the case's defaults for the others.
@@ -108,53 +85,62 @@ impl Run {
     }
 }
 
+/// Where a run goes, what it may take, and how much of it is told.
 #[derive(Args)]
-pub(crate) struct Scene {
-    /// Scene file in TOML: docs/reference/scene-files.md
-    file: PathBuf,
+pub(crate) struct Making {
     /// Output folder for record, series, particles, VTU and pictures
     #[arg(long, group = "folder")]
     out: Option<PathBuf>,
-    /// Resume from this folder's checkpoint of the same scene, or start without one (replaces --out)
+    /// Resume from this folder's checkpoint, or start; bit-identical results (replaces --out)
     #[arg(long, value_name = "DIR", group = "folder")]
     resume: Option<PathBuf>,
     /// Checkpoint interval in wall-clock seconds (0: after every row of the series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S, requires = "folder")]
     checkpoint_every: u64,
-    /// Memory limit of the scene at its start, in GiB (default: the available memory)
-    #[arg(long, value_name = "GIB", value_parser = memory)]
-    memory: Option<f64>,
     /// Number of threads (default: all cores)
     #[arg(long, value_parser = threads())]
     pub(super) threads: Option<usize>,
+    /// Memory limit of the scene at its start, in GiB (default: the available memory)
+    #[arg(long, value_name = "GIB", value_parser = memory)]
+    memory: Option<f64>,
     #[command(flatten)]
     told: Told,
+}
+
+impl Making {
+    /// Runs `spec` of `case`.
+    fn run(self, case: &Case, spec: &RunSpec) -> Result<ExitCode, Error> {
+        let saving = saving(self.checkpoint_every, self.resume.is_some());
+        let folder = self.resume.or(self.out);
+        let place = folder.as_deref().map(|folder| (folder, saving));
+        let memory = self.memory.map(|gib| gib * GIBIBYTE).or_else(available_memory);
+        run_one(case, spec, place, (or_all_cores(self.threads), memory), self.told)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Scene {
+    /// Scene file in TOML: docs/reference/scene-files.md
+    file: PathBuf,
+    #[command(flatten)]
+    pub(super) making: Making,
 }
 
 impl Scene {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let scene = SceneFile::read(&self.file)?;
-        if self.told.progress() {
+        if self.making.told.progress() {
             say(format!("{}\n", one_line(&scene.title)))?;
             for line in &scene.made {
                 say(format!("{line}\n"))?;
             }
         }
-        let saving = saving(self.checkpoint_every, self.resume.is_some());
-        let folder = self.resume.or(self.out);
-        let place = folder.as_deref().map(|folder| (folder, saving));
-        let resources = (or_all_cores(self.threads), memory_of(self.memory));
-        run_one(&scene.case, &scene.spec, place, resources, self.told)
+        self.making.run(&scene.case, &scene.spec)
     }
 }
 
-/// Memory (bytes) that a scene may take: `gib`, or the available memory of the machine, if that is known.
-fn memory_of(gib: Option<f64>) -> Option<f64> {
-    gib.map(|gib| gib * GIBIBYTE).or_else(available_memory)
-}
-
-/// Runs `spec` of `case` on `threads` threads, draws it into its folder, if it has one, and prints its size, progress and
-/// results.
+/// Runs `spec` of `case` on `threads` threads within `memory` (bytes), if that is known, draws it into its folder, if it has
+/// one, and prints its size, progress and results.
 ///
 /// # Errors
 /// The case does not offer the scheme, the scene exceeds the memory limit, the folder holds another run, or those of

@@ -1,16 +1,10 @@
 //! The commands `score` and `export`: other codes.
 
-use super::{Told, say, say_json, scored_cases};
-use clap::Args;
-use mpm_verify::case::find_level;
+use super::*;
 use mpm_verify::cases::find_scored;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
-use mpm_verify::report::{describe, junit, scored};
+use mpm_verify::report::{junit, scored};
 use mpm_verify::scheme::BasisName;
 use mpm_verify::score::{Scored, export::export, gate::Gate};
-use mpm_verify::spec::RunSpec;
-use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct Score {

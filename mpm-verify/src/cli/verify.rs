@@ -1,23 +1,18 @@
 //! The commands `verify` and `report`: runs of a tier, judged and reported.
 
-use super::{Told, case, memory, or_all_cores, saving, say, say_json, threads, tier};
+use super::*;
 use crate::progress;
-use clap::Args;
-use mpm_verify::case::{Case, Tier};
-use mpm_verify::cases;
-use mpm_verify::error::{Error, ExitCode};
-use mpm_verify::files::lock::hold;
 use mpm_verify::golden::{self, Goldens};
 use mpm_verify::night::Night;
 use mpm_verify::record::Record;
-use mpm_verify::report::{describe, discard_report, write_report};
+use mpm_verify::report::{Files, discard_report, write_report};
 use mpm_verify::run::checkpoint;
 use mpm_verify::run::size::GIBIBYTE;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};
 use mpm_verify::study::schedule::{make_runs, require_memory};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct Verify {
@@ -36,6 +31,9 @@ pub(crate) struct Verify {
     /// Checkpoint interval of every run in wall-clock seconds (0: after every row of its series)
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY_S)]
     checkpoint_every: u64,
+    /// Keep all files of the runs (default: records, series, and particles and snapshots that a picture shows)
+    #[arg(long)]
+    all_files: bool,
     /// Folder of the report
     #[arg(long, default_value = "reports/latest")]
     out: PathBuf,
@@ -70,7 +68,10 @@ impl Verify {
         let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
         listener.finish();
         match plan.shard == Shard::WHOLE {
-            true => report_in(std::slice::from_ref(&self.out), &self.out, &goldens, None, self.told),
+            true => {
+                let files = if self.all_files { Files::All } else { Files::Shown };
+                report_in(std::slice::from_ref(&self.out), (&self.out, files), &goldens, None, self.told)
+            }
             false => tell_shard(&plan, &records, self.told),
         }
     }
@@ -130,14 +131,14 @@ impl Report {
         let night = night.map(|(date, commit)| Night::new(&date, &commit)).transpose()?;
         let goldens = Goldens::open(&golden::place(self.golden))?;
         let _held = hold(&out)?;
-        report_in(&self.folders, &out, &goldens, night.as_ref(), self.told)
+        report_in(&self.folders, (&out, Files::All), &goldens, night.as_ref(), self.told)
     }
 }
 
 /// Judges the runs of `folders` and reports them in `out`, which is held.
 fn report_in(
     folders: &[PathBuf],
-    out: &Path,
+    (out, files): (&Path, Files),
     goldens: &Goldens,
     night: Option<&Night>,
     told: Told,
@@ -145,7 +146,7 @@ fn report_in(
     discard_report(out)?;
     let gathered = Gathered::read(folders)?;
     let judged = gathered.judge(|r| goldens.compare(r, gathered.folder(r)?))?;
-    let summary = write_report(&gathered, judged, goldens, night, out)?;
+    let summary = write_report(&gathered, judged, goldens, night, (out, files))?;
     match told {
         Told { json: true, .. } => say_json(&describe::verification_json(&summary))?,
         Told { quiet: true, .. } => say(describe::verification_line(&summary))?,

@@ -195,19 +195,10 @@ impl Chart {
     }
 }
 
-/// Gives charts of the same scales the same ranges, which show everything in each of them.
+/// Gives the charts of each column of a grid, which have the same scales, the same ranges: these show everything in each.
 ///
 /// # Errors
-///
 /// A non-positive value on a log axis; `path` is that of the picture they are for.
-pub fn share_ranges(path: &Path, charts: &mut [Chart]) -> Result<(), PlotError> {
-    share_ranges_of_columns(path, charts, 1)
-}
-
-/// The same for each column of a grid of charts by itself.
-///
-/// # Errors
-/// As [`share_ranges`].
 pub fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize) -> Result<(), PlotError> {
     for (column, upright) in (0..columns).flat_map(|k| [(k, false), (k, true)]) {
         let length = if upright { LEAST.1 } else { LEAST.0 };

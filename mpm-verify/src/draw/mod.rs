@@ -20,7 +20,7 @@ pub(crate) mod style;
 mod text;
 pub(crate) mod triptych;
 
-pub use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges, share_ranges_of_columns};
+pub use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges_of_columns};
 pub use colour::signed;
 pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
 pub use marker::Marker;

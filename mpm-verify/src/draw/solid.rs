@@ -238,12 +238,11 @@ impl Screen {
     }
 }
 
-/// Marks in metres along an edge of the window.
+/// Marks in metres along an edge of the window, with the directions of ticks and of labels.
 struct Ruler {
     name: &'static str,
     ends: [Point; 2],
     scale: Axis,
-    /// Directions of ticks and of labels.
     tick: Point,
     side: Point,
 }
@@ -268,17 +267,12 @@ impl Ruler {
 
     /// Distance of the name from the edge.
     fn gap(&self) -> f64 {
-        let digits = match self.side == BELOW {
-            true => LINE / 2.0,
-            false => self.scale.label_width() + GAP,
-        };
-        TICK + digits
+        TICK + if self.side == BELOW { LINE / 2.0 } else { self.scale.label_width() + GAP }
     }
 
     /// Room for its labels beside a panel, or below.
     fn room(&self) -> f64 {
-        let name = LABEL.width(self.name);
-        self.gap() + if self.side == RIGHT { name } else { LINE }
+        self.gap() + if self.side == RIGHT { LABEL.width(self.name) } else { LINE }
     }
 
     /// Draws it into a panel whose left upper corner is given.

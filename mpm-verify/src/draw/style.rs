@@ -1,6 +1,6 @@
 //! How the curve of a scheme looks, and which schemes share their axes, the same in every picture.
 
-use super::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges};
+use super::{Chart, Dash, Marker, PlotError, Series, draw_charts, share_ranges_of_columns};
 use crate::scheme::{BasisName, RemedyName, Scheme, SpaceName, TransferName};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -103,7 +103,7 @@ impl Panels {
             let mut row: Vec<Chart> = self.0.iter().map(|p| chart(&item, p)).collect();
             if row.iter().any(Chart::shows_something) {
                 if row.len() > 1 {
-                    share_ranges(path, &mut row)?;
+                    share_ranges_of_columns(path, &mut row, 1)?;
                 }
                 charts.extend(row);
             }

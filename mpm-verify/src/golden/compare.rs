@@ -2,18 +2,9 @@
 
 use super::field;
 use super::format::{Column, Golden, Point, Run};
-use super::picture::{curves, pixels_of, write_small};
-use super::{file, mismatch, of_drift, picture_file, runs, why_none};
-use crate::cases;
-use crate::check::Finding;
-use crate::error::Error;
-use crate::record::Record;
-use crate::run::series;
-use crate::table::Table;
-use crate::verdict::Verdict;
-use image::RgbImage;
+use super::picture::{curves, judged, write_small};
+use super::*;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// Largest distance of a row's time from that of its golden, over the latest time of the series.
 const SAME_TIME: f64 = 1e-9;
@@ -128,15 +119,8 @@ impl Goldens {
         }
         *first = now.snapped(first);
         let path = picture_file(&self.root, &now.record.case);
-        let metric = "different pixels of the picture";
         let drawn = curves(&shown, now.series.abscissa());
-        Some(match drawn.and_then(|drawn| pixels_of(&path, &drawn)) {
-            Ok(different) => {
-                let different = different as f64;
-                of_drift(Finding::within(metric, different, 0.0, 0.0, blessing))
-            }
-            Err(error) => mismatch(metric, &error.to_string()),
-        })
+        Some(judged("different pixels of the picture", &path, drawn, blessing))
     }
 
     /// The watched columns of a run as they were blessed, and as they are.

@@ -1,18 +1,11 @@
 //! The particle field of a case's first run, kept as precisely as its picture shows it.
 
 use super::measure::rounded;
-use super::picture::{WIDTH, pixels_of, small, write_small};
-use super::{mismatch, of_drift};
+use super::picture::{WIDTH, judged, small, write_small};
+use super::*;
 use crate::case::FieldView;
-use crate::check::Finding;
 use crate::draw::{FieldFigure, FieldPanel, draw_fields};
-use crate::error::Error;
 use crate::files::snapshot_file;
-use crate::record::Record;
-use crate::table::Table;
-use crate::verdict::Verdict;
-use image::RgbImage;
-use std::path::{Path, PathBuf};
 
 /// Number of distinguishable pixels along the window and steps of the colour scale: half of one is the tolerance.
 const PIXELS: f64 = 240.0;
@@ -25,12 +18,17 @@ pub(super) fn files(root: &Path, case: &str) -> [PathBuf; 2] {
     ["csv", "png"].map(|e| root.join(format!("{case}-field.{e}")))
 }
 
-/// The particles of a run in the window: number in seeding order, position and value.
-fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
-    let path = match view.time {
+/// The table of a run in `folder` that has the field.
+pub(super) fn table(view: &FieldView, folder: &Path) -> PathBuf {
+    match view.time {
         Some(time) => snapshot_file(folder, time),
         None => folder.join("particles.csv"),
-    };
+    }
+}
+
+/// The particles of a run in the window: number in seeding order, position and value.
+fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
+    let path = table(view, folder);
     let table = Table::read(&path)?;
     let [xs, ys, values] = ["x", "y", view.value].map(|name| table.column(name));
     if values.len() != table.rows() {
@@ -97,17 +95,9 @@ pub(super) fn judge(
             moved += 1;
         }
     }
-    let close = |metric, value| of_drift(Finding::within(metric, value, 0.0, 0.0, blessing));
-    let differ = close(metric, f64::from(moved));
-    let pixels = "different pixels of the field";
+    let differ = of_drift(Finding::within(metric, f64::from(moved), 0.0, 0.0, blessing));
     let drawn = draw(view, record, &rows);
-    Ok(vec![
-        differ,
-        match drawn.and_then(|drawn| pixels_of(picture, &drawn)) {
-            Ok(different) => close(pixels, different as f64),
-            Err(error) => mismatch(pixels, &error.to_string()),
-        },
-    ])
+    Ok(vec![differ, judged("different pixels of the field", picture, drawn, blessing)])
 }
 
 fn draw(view: &FieldView, record: &Record, rows: &[[f64; 4]]) -> Result<RgbImage, Error> {

@@ -1,12 +1,9 @@
 //! The file of a case's goldens: JSON, with a line per quantity.
 
-use super::{BLUNT, FLOOR, MARGIN};
-use crate::error::Error;
+use super::*;
 use crate::files::{OTHER_LAYOUT, read_text, read_versioned, write_whole};
-use crate::record::Record;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
-use std::path::Path;
 
 /// Version of the format.
 const SCHEMA: u32 = 3;

@@ -1,13 +1,7 @@
 //! The golden numbers of a run, from its files and those of its perturbed twin.
 
-use super::bare;
 use super::format::{Column, Point, Run, SERIES, WORK};
-use crate::cases;
-use crate::error::Error;
-use crate::record::Record;
-use crate::run::series;
-use crate::table::Table;
-use std::path::Path;
+use super::*;
 
 /// Rows of a series that are kept of each watched column.
 const ROWS: usize = 8;
@@ -67,9 +61,12 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
     kept.dedup();
     let mut response: f64 = 0.0;
     let mut points = Vec::new();
-    for k in 0..total.min(values[1].len()) {
-        let difference = (values[0][k] - values[1][k]).abs();
-        if times[0][k] != times[1][k] || !difference.is_finite() {
+    let mut twin = values[1].iter().zip(times[1]);
+    for k in 0..total {
+        // A slim run lacks rows that its twin has.
+        let same = twin.find(|(_, time)| **time >= times[0][k]).filter(|(_, time)| **time == times[0][k]);
+        let difference = same.map_or(f64::NAN, |(value, _)| (values[0][k] - value).abs());
+        if !difference.is_finite() {
             break;
         }
         response = response.max(difference);

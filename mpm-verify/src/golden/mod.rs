@@ -21,8 +21,11 @@ use crate::cases;
 use crate::check::Finding;
 use crate::error::Error;
 use crate::record::Record;
+use crate::run::series;
 use crate::spec::RunSpec;
+use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
+use image::RgbImage;
 use std::path::{Path, PathBuf};
 
 /// The tier whose runs carry goldens.
@@ -77,6 +80,13 @@ pub fn why_none(case: &Case, record: &Record) -> Option<String> {
     } else {
         None
     }
+}
+
+/// The table from which the golden field of a case is taken, if it is one of the run in `folder`.
+#[must_use]
+pub fn field_table(case: &Case, record: &Record, folder: &Path) -> Option<PathBuf> {
+    let view = case.field.filter(|_| runs(case).first() == Some(&record.folder()))?;
+    Some(field::table(&view, folder))
 }
 
 /// Particle–node pairs of all golden runs of a case whose count does not answer rounding.

@@ -1,16 +1,15 @@
 //! The picture of runs: the watched columns of their series.
 
 use super::format::{Column, Run, SERIES};
+use super::*;
 use crate::distinct;
 use crate::draw::style::series;
 use crate::draw::triptych::different_pixels;
 use crate::draw::{Chart, PlotError, Series, draw_charts};
-use crate::error::Error;
 use crate::files::{DOCUMENT, OTHER_LAYOUT, read, read_picture, write_whole};
 use crate::scheme::Scheme;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{RgbImage, imageops};
-use std::path::Path;
+use image::imageops;
 
 /// Width of a picture, in pixels, and of one with a single chart, whose curves are longer.
 pub(super) const WIDTH: u32 = 480;
@@ -65,11 +64,15 @@ pub(super) fn small(width: u32, draw: impl Fn(&Path) -> Result<(), PlotError>) -
     Ok(picture)
 }
 
-/// Pixels in which a picture differs from the one that is kept.
-///
-/// # Errors
-/// The kept one is missing or damaged.
-pub(super) fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
+/// The verdict on the pixels in which a picture differs from the one that is kept.
+pub(super) fn judged(metric: &str, kept: &Path, drawn: Result<RgbImage, Error>, blessing: &str) -> Verdict {
+    match drawn.and_then(|drawn| pixels_of(kept, &drawn)) {
+        Ok(different) => of_drift(Finding::within(metric, different as f64, 0.0, 0.0, blessing)),
+        Err(error) => mismatch(metric, &error.to_string()),
+    }
+}
+
+fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
     if !read(kept, DOCUMENT)?.ends_with(END_OF_PNG) {
         return Err(Error::file(kept, OTHER_LAYOUT));
     }

@@ -1,19 +1,13 @@
 //! Convergence and work–precision of every case.
 
 use super::errors::{Entry, Errors};
+use super::prelude::*;
 use super::price;
-use crate::cases;
-use crate::distinct;
 use crate::draw::style::Panel;
-use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
-use crate::error::Error;
+use crate::draw::{Dash, Marker, ReferenceLine};
 use crate::figure::below_the_curves;
-use crate::files::{write_csv, write_json};
-use crate::gallery::Picture;
-use crate::metric::Quantity;
-use crate::study::convergence::{Convergence, Point, precision};
-use crate::study::summary::CaseStudy;
-use std::path::Path;
+use crate::files::write_json;
+use crate::study::convergence::{Point, precision};
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";

@@ -1,11 +1,11 @@
 //! Tables over several cases: every remedy, and every space of the pressure, against every criterion; transfers and particles
 //! per cell.
 
-use crate::record::Record;
-use crate::results::{
-    Column, Format, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order, percent, scientific, share,
-};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use super::prelude::*;
+use super::values::{quantity, read_format};
+use crate::results::{Column, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order};
+use crate::scheme::TransferName;
+use serde::Deserialize;
 
 /// The bases that are compared.
 pub(super) const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];
@@ -14,97 +14,88 @@ const DISORDER: f64 = 0.1;
 /// The error that orders, prices and locking are those of.
 const ERROR: &str = "displacement_l2";
 
-/// Runs by case, level and changed parameters.
-#[derive(Clone, Copy)]
-struct Runs(&'static str, &'static str, &'static [&'static str]);
+/// The criteria: table, title, the case, level and changed parameters of a run, what is shown of it, and the format of a
+/// number, as that of numbers on pages.
+const CRITERIA: &str = include_str!("../../assets/criteria.csv");
 
-impl Runs {
-    fn has(self, r: &Record) -> bool {
-        r.case == self.0 && r.level == self.1 && r.set == self.2
+/// A criterion.
+#[derive(Clone, Deserialize)]
+struct Criterion {
+    table: String,
+    title: String,
+    case: String,
+    level: String,
+    set: String,
+    shows: String,
+    format: String,
+}
+
+impl Criterion {
+    /// Those of a table, as columns.
+    fn columns(table: &str) -> Vec<Column> {
+        let all = csv::Reader::from_reader(CRITERIA.as_bytes()).into_deserialize::<Self>();
+        all.flatten().filter(|line| line.table == table).map(Self::column).collect()
     }
 
-    /// A metric of them.
-    fn shows(self, title: &str, metric: &'static str, format: Format) -> Column {
-        Column::value(title, move |r| r.value(metric), format).of(move |r| self.has(r))
+    fn has(&self, r: &Record) -> bool {
+        self.is_of_set(r, &self.set) && r.level == self.level
     }
 
-    fn says(self, title: &str, text: fn(&Record) -> String) -> Column {
-        Column::text(title, text).of(move |r| self.has(r))
+    fn is_of_set(&self, r: &Record, set: &str) -> bool {
+        r.case == self.case && r.set.join(" ") == set
     }
 
-    fn cpu(self, title: &str) -> Column {
-        Column::value(title, |r| r.time.cpu_s, fixed(2)).of(move |r| self.has(r))
+    fn column(self) -> Column {
+        let (title, this) = (self.title.clone(), self.clone());
+        let (shows, of) = self.shows.split_once(' ').unwrap_or((&self.shows, ""));
+        let of = of.to_owned();
+        match shows {
+            // Over all levels.
+            "order" => Column::row(title, move |own, _| {
+                let runs = own.iter().filter(|r| self.is_of_set(r, &self.set));
+                order(runs.copied(), &of).map_or_else(String::new, |order| order.to_string())
+            }),
+            "over-none" | "over-set" => Column::row(title, move |own, all| self.over(own, all, &of)),
+            "at-rest" => Column::text(title, move |r| {
+                let error = fixed(2).times(100.0).text(r.value(&of));
+                match r.value("at_rest") == 1.0 {
+                    true => error,
+                    false => format!("{error}, never at rest"),
+                }
+            })
+            .of(move |r| this.has(r)),
+            "frequency" => Column::text(title, |r| match r.value("log_jacobian_gap") > DISORDER {
+                true => "in disorder".to_owned(),
+                false => format!("frequency × {}", fixed(2).text(r.value("frequency_ratio"))),
+            })
+            .of(move |r| this.has(r)),
+            _ => {
+                let format = read_format(&self.format).unwrap_or(SHORT);
+                Column::value(title, move |r| quantity(r, &self.shows), format).of(move |r| this.has(r))
+            }
+        }
     }
 
-    /// The order of an error over all levels.
-    fn order(self, title: &str, error: &'static str) -> Column {
-        Column::row(title, move |own, _| {
-            let runs = own.iter().filter(|r| r.case == self.0 && r.set == self.2);
-            let of = order(runs.copied(), error);
-            of.map_or_else(String::new, |order| order.to_string())
-        })
-    }
-
-    /// The error over that of runs of the remedy that `remedy` gives.
-    fn over(self, title: &str, other: Self, remedy: fn(&Record) -> RemedyName) -> Column {
-        Column::row(title, move |own, all| {
-            let Some(run) = own.iter().find(|r| self.has(r)) else {
-                return String::new();
-            };
-            let is_other = |r: &&&Record| other.has(r) && r.remedy() == remedy(run);
-            let other = all.iter().find(is_other).map_or(f64::NAN, |r| r.value(ERROR));
-            SHORT.text(run.value(ERROR) / other)
-        })
+    /// The error over that of a run without a remedy, or of the same remedy with the parameters `set`.
+    fn over(&self, own: &[&Record], all: &[&Record], set: &str) -> String {
+        let Some(run) = own.iter().find(|r| self.has(r)) else {
+            return String::new();
+        };
+        let (set, remedy) = match set {
+            "" => (&*self.set, RemedyName::None),
+            set => (set, run.remedy()),
+        };
+        let is_other = |r: &&&Record| self.is_of_set(r, set) && r.level == self.level && r.remedy() == remedy;
+        let other = all.iter().find(is_other).map_or(f64::NAN, |r| r.value(ERROR));
+        SHORT.text(run.value(ERROR) / other)
     }
 }
 
 /// Every remedy against every criterion, with a basis.
 pub(super) fn remedies(basis: BasisName) -> ResultTable {
-    const COLUMN: Runs = Runs("column", "h0.25", &["duration=5.04"]);
-    const AXIS: Runs = Runs("mms-axis", "n32", &[]);
-    const AXIS_H2: Runs = Runs("mms-axis", "n32", &["step_scaling=h2"]);
-    const CROSSED: Runs = Runs("mms-axis", "n32", &["amplitude=0.02"]);
-    const WALL: Runs = Runs("mms-wall-pressure", "n32", &[]);
-    const WALL_H2: Runs = Runs("mms-wall-pressure", "n32", &["step_scaling=h2"]);
-    const BOX: Runs = Runs("mms-vortex-box", "n32", &[]);
-    const SOFT_BOX: Runs = Runs("mms-vortex-box", "n32", &["poisson_ratio=0.3"]);
-    const COOK: Runs = Runs("cook", "h1", &[]);
-    const WAVE: Runs = Runs("standing-wave", "n8", &["duration=24"]);
-    let cook = |r: &Record| {
-        let error = fixed(2).times(100.0).text(r.value("fem_mid_edge_error"));
-        match r.value("at_rest") == 1.0 {
-            true => error,
-            false => format!("{error}, never at rest"),
-        }
-    };
-    let wave = |r: &Record| match r.value("log_jacobian_gap") > DISORDER {
-        true => "in disorder".to_owned(),
-        false => format!("frequency × {}", fixed(2).text(r.value("frequency_ratio"))),
-    };
-    let drift = "column, 5·10⁵ steps: drift of J̄ per 10⁵ steps";
-    let growth = "… kinetic energy, last third over middle third";
-    let price = "price: error over that of none, mms-axis n32";
-    let crossed = "… with cells crossed (A = 0.02 m, 2 particles per direction)";
-    let locking = "locking: error at ν = 0.4999 over 0.3, mms-vortex-box n32";
-    let none = |_: &Record| RemedyName::None;
-    let columns = [
-        COLUMN.shows(drift, "j_drift_per_1e5_steps", SHORT),
-        COLUMN.shows("… of J", "true_j_drift_per_1e5_steps", SHORT),
-        COLUMN.shows(growth, "kinetic_growth", SHORT),
-        AXIS.order("order, mms-axis, Δt ∝ h", ERROR),
-        AXIS_H2.order("order, mms-axis, Δt ∝ h²", ERROR),
-        WALL.order("order, mms-wall-pressure, Δt ∝ h", ERROR),
-        WALL_H2.order("order, mms-wall-pressure, Δt ∝ h²", ERROR),
-        AXIS.over(price, AXIS, none),
-        CROSSED.over(crossed, CROSSED, none),
-        BOX.over(locking, SOFT_BOX, Record::remedy),
-        BOX.shows("spurious pressure there (Pa)", "mean_stress_l2", SHORT),
-        COOK.says("Cook, h = 1 m: mid-edge error (%)", cook),
-        WAVE.says("standing wave, 20 periods, n8", wave),
-    ];
     const REMEDY: Label = ("", |r| r.remedy().to_string());
     let shows = move |r: &Record| is_flip(r) && r.basis() == basis;
-    ResultTable::new(format!("remedies-{basis}"), shows, &[REMEDY], columns).across()
+    ResultTable::new(format!("remedies-{basis}"), shows, &[REMEDY], Criterion::columns("remedies")).across()
 }
 
 /// The error of u on 32 cells (16 in three dimensions), and by what factor another transfer or number of particles per
@@ -143,52 +134,38 @@ fn transfers() -> ResultTable {
 
 /// Every space of the pressure against every criterion, with its cost.
 fn spaces() -> ResultTable {
-    const FIXED: Runs = Runs("terzaghi", "n40", &[]);
-    const FIRST_STEP: Runs = Runs("terzaghi", "n20", &["first_step=0.25", "steps=1"]);
-    const FINE: Runs = Runs("terzaghi", "n160", &[]);
-    const PLATES: Runs = Runs("mandel", "n16", &[]);
-    const MOVING: Runs = Runs("consolidation", "n16", &[]);
-    const LOADED: Runs = Runs("consolidation", "n32", &["load=1"]);
-    const SETTLED: Runs = Runs("consolidation", "n64", &[]);
-    const CROSSING: Runs = Runs("mms-poro", "n32", &["amplitude=0.04"]);
-    const UNDRAINED: Runs = Runs("undrained", "n32", &[]);
-    let first_step = "… overshoot of a first step of c_v Δt/h² = 1/4";
-    let centre = "mandel, ν = 0.25, n16: error of the pressure at the centre, over p₀";
-    let (moving, loaded) =
-        ("consolidation, 0.3 M₀, n16: error of the settlement", "… 1 M₀, n32: error of the settlement");
-    let in_h = "… order in h";
-    let short = scientific(2);
-    let columns = [
-        FIXED.shows("terzaghi, n40: error of p/q in space", "pressure_l2_steps", short),
-        FIXED.order(in_h, "pressure_l2_steps"),
-        FIRST_STEP.shows(first_step, "overshoot_first_step", percent(1)),
-        PLATES.shows(centre, "centre_pressure_error", short),
-        PLATES.order("… order in h, without that of steps", "centre_pressure_error_space"),
-        MOVING.shows(moving, "settlement_error", share(2)),
-        MOVING.order(in_h, "settlement_error_steps"),
-        LOADED.shows(loaded, "settlement_error", share(2)),
-        CROSSING.shows("mms-poro, A = 0.04 m, n32: error of u (m)", ERROR, short),
-        CROSSING.order(in_h, ERROR),
-        CROSSING.shows("… error of p", "pressure_l2", short),
-        CROSSING.order(in_h, "pressure_l2"),
-        UNDRAINED.shows("undrained, n32: Chapelle and Bathe's β", "inf_sup", fixed(3)),
-        FINE.shows("entries of a matrix, terzaghi n160", "matrix_entries", fixed(0)),
-        SETTLED.shows("… consolidation n64", "matrix_entries", fixed(0)),
-        CROSSING.shows("… mms-poro n32", "matrix_entries", fixed(0)),
-        FINE.cpu("CPU (s), terzaghi n160, 40 steps"),
-        SETTLED.cpu("… consolidation n64, 500 steps"),
-        CROSSING.cpu("… mms-poro n32"),
-    ];
     const SPACE: Label = ("", |r| match r.scheme() {
         Scheme::Poro(parts) => parts.space.to_string(),
         _ => String::new(),
     });
     let shows = |r: &Record| matches!(r.scheme(), Scheme::Poro(_)) && r.basis() == BasisName::Gimp;
-    ResultTable::new("pressure-spaces", shows, &[SPACE], columns).across()
+    let name = "pressure-spaces";
+    ResultTable::new(name, shows, &[SPACE], Criterion::columns(name)).across()
 }
 
 /// All of them.
 pub(super) fn all() -> Vec<ResultTable> {
     let remedies = BASES.into_iter().map(remedies);
     remedies.chain([transfers(), spaces()]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn criteria_name_what_there_is() {
+        let all = csv::Reader::from_reader(CRITERIA.as_bytes()).into_deserialize::<Criterion>();
+        for line in all.map(Result::unwrap) {
+            let case = cases::find(&line.case).unwrap();
+            assert!(case.levels.iter().any(|l| l.name == line.level), "{}", line.title);
+            assert!(line.format.is_empty() || read_format(&line.format).is_some(), "{}", line.format);
+            let (shows, of) = line.shows.split_once(' ').unwrap_or((&line.shows, &line.shows));
+            let known = |name: &str| name == "cpu_s" || case.metrics.iter().any(|m| m.name == name);
+            match shows {
+                "over-none" | "over-set" | "frequency" => {}
+                _ => assert!(known(of), "{}: {of}", line.title),
+            }
+        }
+    }
 }

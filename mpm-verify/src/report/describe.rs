@@ -3,13 +3,11 @@
 
 use super::document::terminal::{WIDTH, cut, painted, wrapped};
 use super::document::{Document, Text};
+use super::prelude::*;
 use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
-use crate::case::{Case, Tier};
+use crate::case::Tier;
 use crate::error::ExitCode;
-use crate::record::Record;
-use crate::study::judge::{exit_code, outcome_of_run};
-use crate::study::summary::Summary;
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::study::judge::exit_code;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -109,20 +107,16 @@ pub fn explain_json(case: &Case) -> Value {
         let allowed = p.domain.to_string();
         json!({"name": p.name, "unit": p.unit, "default": p.default, "allowed": allowed, "meaning": p.meaning})
     });
-    let metrics = case.metrics.iter();
-    let metrics = metrics.map(|m| json!({"name": m.name, "unit": m.unit, "meaning": m.meaning}));
-    let checks = case.checks.iter();
-    let checks = checks.map(|c| json!({"name": c.name, "kind": c.kind, "statement": c.statement}));
     json!({
         "case": case.name,
         "title": case.title,
         "description": case.description,
         "parameters": parameters.collect::<Value>(),
         "schemes": case.schemes(),
-        "levels": case.levels.iter().map(|l| json!({"name": l.name, "h": l.h})).collect::<Value>(),
-        "metrics": metrics.collect::<Value>(),
+        "levels": case.levels,
+        "metrics": case.metrics,
         "wanted": case.wanted,
-        "checks": checks.collect::<Value>(),
+        "checks": case.checks,
         "references": case.references,
         "limits": case.limits,
     })

@@ -1,19 +1,17 @@
 //! The difference of two report folders.
 
 use super::convergence::CPU_PICTURE;
+use super::prelude::*;
 use super::words::{number, outcome};
 use crate::draw::triptych::{different_pixels, triptych};
 use crate::draw::write_small_png;
-use crate::error::{Error, ExitCode};
-use crate::files::{self, make_folder, read_versioned, write_whole};
-use crate::study::summary::{SCHEMA, Summary};
-use crate::table::Sheet;
-use crate::verdict::Verdict;
+use crate::error::ExitCode;
+use crate::files::{self, make_folder, read_versioned};
+use crate::study::summary::SCHEMA;
 use image::RgbImage;
+use serde::Serialize;
 use serde_json::{Value, json};
-use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 /// A picture of two reports.
 struct PictureChange {
@@ -22,13 +20,21 @@ struct PictureChange {
     new: Option<RgbImage>,
 }
 
+/// An entry of two tables that is not the same.
+#[derive(Serialize)]
+struct Change<T> {
+    what: String,
+    old: T,
+    new: T,
+}
+
 /// Differences between two report folders.
 pub struct Difference {
     names: [String; 2],
-    /// (run, metric) with the old and the new value, where they are not the same.
-    numbers: Vec<(String, Option<f64>, Option<f64>)>,
-    /// (run, check, metric) with the old and the new outcome, where they are not the same.
-    verdicts: Vec<(String, &'static str, &'static str)>,
+    /// Values, by run and metric.
+    numbers: Vec<Change<Option<f64>>>,
+    /// Outcomes, by run, check and metric.
+    verdicts: Vec<Change<&'static str>>,
     pictures: Vec<PictureChange>,
 }
 
@@ -82,14 +88,11 @@ impl Difference {
     /// The difference as JSON; of pictures the names of the files.
     #[must_use]
     pub fn json(&self) -> Value {
-        let entry = |what: &str, old: Value, new: Value| json!({"what": what, "old": old, "new": new});
-        let numbers = self.numbers.iter();
-        let verdicts = self.verdicts.iter();
         json!({
             "old": self.names[0],
             "new": self.names[1],
-            "numbers": numbers.map(|(what, a, b)| entry(what, json!(a), json!(b))).collect::<Value>(),
-            "verdicts": verdicts.map(|(what, a, b)| entry(what, json!(a), json!(b))).collect::<Value>(),
+            "numbers": self.numbers,
+            "verdicts": self.verdicts,
             "pictures": self.pictures.iter().map(|p| json!(p.file)).collect::<Value>(),
         })
     }
@@ -100,11 +103,11 @@ impl Difference {
         let [old, new] = &self.names;
         let mut t = format!("# {old} against {new}\n\n{}\n", self.counts());
         let verdicts = self.verdicts.iter();
-        let verdicts = verdicts.map(|(what, a, b)| vec![what.clone(), (*a).into(), (*b).into()]);
-        let numbers = self.numbers.iter().map(|(what, a, b)| {
-            let difference = a.zip(*b).map(|(a, b)| b - a);
-            let numbers = [*a, *b, difference].map(number);
-            [std::slice::from_ref(what), &numbers].concat()
+        let verdicts = verdicts.map(|c| [&*c.what, c.old, c.new].map(str::to_owned).into());
+        let numbers = self.numbers.iter().map(|c| {
+            let difference = c.old.zip(c.new).map(|(a, b)| b - a);
+            let numbers = [c.old, c.new, difference].map(number);
+            [std::slice::from_ref(&c.what), &numbers].concat()
         });
         for sheet in [
             Sheet::new(["verdict", "old", "new"]).with(verdicts),
@@ -145,14 +148,11 @@ impl Difference {
 }
 
 /// Entries of two tables that are not the same; `absent` stands for one that is not there.
-fn changes<T: Copy + PartialEq>(old: BTreeMap<String, T>, new: BTreeMap<String, T>, absent: T) -> Vec<(String, T, T)> {
+fn changes<T: Copy + PartialEq>(old: BTreeMap<String, T>, new: BTreeMap<String, T>, absent: T) -> Vec<Change<T>> {
     let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
     let value = |table: &BTreeMap<String, T>, name: &String| *table.get(name).unwrap_or(&absent);
-    names
-        .into_iter()
-        .map(|name| (name.clone(), value(&old, name), value(&new, name)))
-        .filter(|(_, a, b)| a != b)
-        .collect()
+    let change = |what: &String| Change { what: what.clone(), old: value(&old, what), new: value(&new, what) };
+    names.into_iter().map(change).filter(|c| c.old != c.new).collect()
 }
 
 fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
@@ -180,28 +180,18 @@ fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
 }
 
 fn outcomes(summary: &Summary) -> BTreeMap<String, &'static str> {
-    let name = |case: &str, run: Option<String>, v: &Verdict| {
-        format!("{case} {} {}: {}", run.unwrap_or_default(), v.check, v.metric)
+    let entry = |(study, record, v): (&CaseStudy, Option<&Record>, &Verdict)| {
+        let run = record.map_or_else(String::new, Record::folder);
+        (format!("{} {run} {}: {}", study.case, v.check, v.metric), outcome(v.outcome))
     };
-    summary
-        .verdicts()
-        .map(|(study, record, v)| {
-            let run = record.map(crate::record::Record::folder);
-            (name(&study.case, run, v), outcome(v.outcome))
-        })
-        .collect()
+    summary.verdicts().map(entry).collect()
 }
 
-/// Whether a picture shows times taken, which no two runs share.
-fn shows_time(path: &Path) -> bool {
-    let name = path.file_name().and_then(|n| n.to_str()).unwrap_or("");
-    name == CPU_PICTURE
-}
-
-/// Collects the PNG files below `folder`, as paths relative to `root`; links to folders are not followed.
+/// Collects the PNG files below `folder`, as paths relative to `root`, without those of times taken, which no two runs share; links
+/// to folders are not followed.
 fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> Result<(), Error> {
     let pictures = files::files_in(folder, &["png"])?;
-    let shown = pictures.iter().filter(|path| !shows_time(path));
+    let shown = pictures.iter().filter(|path| !path.ends_with(CPU_PICTURE));
     found.extend(shown.filter_map(|path| path.strip_prefix(root).map(Path::to_path_buf).ok()));
     let folders = files::folders_in(folder)?;
     folders.iter().try_for_each(|inner| list_pictures(root, inner, found))

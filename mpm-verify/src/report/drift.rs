@@ -1,14 +1,9 @@
 //! Pictures of what has drifted: golden | now | difference.
 
+use super::prelude::*;
 use crate::draw::triptych::triptych;
 use crate::draw::write_small_png;
-use crate::error::Error;
-use crate::gallery::Picture;
 use crate::golden::Goldens;
-use crate::study::gather::Gathered;
-use crate::study::summary::CaseStudy;
-use crate::verdict::Verdict;
-use std::path::Path;
 
 /// Draws, for each run of a case that has drifted from its golden, its watched series beside the golden's.
 pub(super) fn draw(

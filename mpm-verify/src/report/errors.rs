@@ -1,14 +1,9 @@
 //! Errors of a case against cell size, cost or a parameter, a row of panels each.
 
-use crate::case::Case;
+use super::prelude::*;
+use crate::draw::Scale;
 use crate::draw::style::{Panel, Panels};
-use crate::draw::{Chart, Scale};
-use crate::error::Error;
 use crate::figure::Points;
-use crate::gallery::Picture;
-use crate::metric::Quantity;
-use crate::scheme::Scheme;
-use std::path::Path;
 
 /// An error of a run.
 pub(super) struct Entry<'a> {

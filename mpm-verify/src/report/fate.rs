@@ -1,9 +1,8 @@
 //! How a run came out: its outcome, and whether what it leaves is noise or it broke down.
 
+use super::prelude::*;
 use super::words;
-use crate::record::Record;
-use crate::study::judge::{broke_as_known, outcome_of_run};
-use crate::verdict::Outcome;
+use crate::study::judge::broke_as_known;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Case, metric of the noise in its stress or pressure (rms), and metric of the reference rms, unless the first is a

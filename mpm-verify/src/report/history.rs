@@ -1,16 +1,10 @@
 //! Numbers of nights: errors, orders and cost, kept in a table beside the report.
 
-use crate::cases;
-use crate::error::{Error, is_unfit};
-use crate::files::{read_rows, rows_text, write_whole};
-use crate::night::Night;
-use crate::scheme::Scheme;
-use crate::study::convergence::Convergence;
-use crate::study::summary::CaseStudy;
+use super::prelude::*;
+use crate::error::is_unfit;
+use crate::files::{read_rows, rows_text};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 const FILE: &str = "history.csv";
 const COST: &str = "cpu_s";

@@ -1,15 +1,11 @@
 //! The verdicts in the format of JUnit, which continuous integration servers show.
 
+use super::prelude::*;
 use super::words::{demand, kind, outcome};
-use crate::error::Error;
-use crate::files::write_whole;
-use crate::record::{Failure, Record};
+use crate::record::Failure;
 use crate::score::Scored;
 use crate::score::gate::{Gate, INAPPLICABLE};
-use crate::study::summary::{CaseStudy, Summary};
-use crate::verdict::{Outcome, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
-use std::path::Path;
 use std::time::Duration;
 
 /// Writes `junit.xml` into `out`.

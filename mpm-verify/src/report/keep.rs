@@ -3,15 +3,11 @@
 //! A night may hold some cases alone. Its rows replace those of the same runs, and the others stay, each with the
 //! night and the program that made it.
 
+use super::prelude::*;
 use super::rows::{Row, read, text};
 use super::{SUMMARY, history};
-use crate::cases;
-use crate::error::Error;
-use crate::files::{make_folder, read_versioned, write_whole};
-use crate::night::Night;
-use crate::study::summary::{CaseStudy, SCHEMA, Summary};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use crate::files::{make_folder, read_versioned};
+use crate::study::summary::SCHEMA;
 
 /// Most bytes of the rows.
 const MOST_ROWS: usize = 1_000_000;

@@ -6,12 +6,9 @@ mod tests;
 
 use super::document::{self, Table, Text};
 use super::fate::Fate;
+use super::prelude::*;
 use super::speed::Speed;
-use crate::cases;
-use crate::distinct;
-use crate::record::Record;
 use crate::results::fixed;
-use crate::scheme::Scheme;
 
 /// The kinds of solvers that have a panel of their own.
 pub(super) const PANELS: [&str; 3] = ["explicit", "implicit", "poro"];

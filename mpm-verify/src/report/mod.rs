@@ -21,6 +21,7 @@ pub mod junit;
 pub mod keep;
 mod map;
 mod pages;
+mod prelude;
 mod price;
 mod rivals;
 mod rows;
@@ -37,21 +38,22 @@ mod values;
 mod verdicts;
 mod words;
 
-use crate::case::Case;
-use crate::cases;
-use crate::error::Error;
-use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json, write_whole};
-use crate::gallery::{Gallery, Picture};
-use crate::golden::Goldens;
-use crate::night::Night;
-use crate::record::Record;
-use crate::study::gather::Gathered;
-use crate::study::summary::{CaseStudy, Summary};
+use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json};
+use crate::golden::{self, Goldens};
+use crate::run::{series, slim::slim};
+use prelude::*;
 use speed::Speed;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 const SUMMARY: &str = "summary.json";
+
+/// Files of runs that stay when their report is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Files {
+    /// All.
+    All,
+    /// Records, and tables that a picture or a golden shows: see [`slim`].
+    Shown,
+}
 
 /// Writes the pictures of every case, the CSV of everything plotted, `summary.json`, `summary.md`,
 /// `junit.xml` and the pages: `index.html`, `faults.html` and one per case; what has drifted from its golden
@@ -64,12 +66,12 @@ pub fn write_report(
     mut judged: Summary,
     goldens: &Goldens,
     night: Option<&Night>,
-    out: &Path,
+    (out, files): (&Path, Files),
 ) -> Result<Summary, Error> {
     owning(out, || {
         for study in &mut judged.cases {
             study.night = night.cloned();
-            study.pictures = draw(study, gathered, goldens, out)?;
+            study.pictures = draw(study, gathered, goldens, (out, files))?;
             verdicts::write(study, out)?;
         }
         let speed = Speed::of(&judged.cases);
@@ -83,13 +85,26 @@ pub fn write_report(
     Ok(judged)
 }
 
-/// Draws all pictures of a case.
-fn draw(study: &CaseStudy, gathered: &Gathered, goldens: &Goldens, out: &Path) -> Result<Vec<Picture>, Error> {
+/// Draws all pictures of a case; may remove files of its runs that nothing reads.
+fn draw(
+    study: &CaseStudy,
+    gathered: &Gathered,
+    goldens: &Goldens,
+    (out, files): (&Path, Files),
+) -> Result<Vec<Picture>, Error> {
     let case = cases::find(&study.case)?;
     let mut pictures = drift::draw(study, gathered, goldens, out)?;
-    pictures.extend(draw_own(case, study, gathered, out)?);
+    let (own, mut shown) = draw_own(case, study, gathered, out)?;
+    pictures.extend(own);
     if let [record] = &study.records[..] {
-        pictures.extend(single::own(case, record, gathered.folder(record)?, out)?);
+        let folder = gathered.folder(record)?;
+        pictures.extend(single::own(case, record, folder, out)?);
+        shown.extend(["particles.csv", series::FILE].map(|file| folder.join(file)));
+    }
+    for record in study.records.iter().filter(|_| files == Files::Shown) {
+        let folder = gathered.folder(record)?;
+        shown.extend(golden::field_table(case, record, folder));
+        slim(folder, &shown)?;
     }
     pictures.extend(convergence::draw(study, out)?);
     pictures.extend(sweep::draw(study, out)?);
@@ -99,12 +114,15 @@ fn draw(study: &CaseStudy, gathered: &Gathered, goldens: &Goldens, out: &Path) -
     Ok(pictures)
 }
 
+/// Pictures, and the tables from which they were drawn.
+type Drawn = (Vec<Picture>, BTreeSet<PathBuf>);
+
 /// Draws what only this case has.
-fn draw_own(case: &Case, study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Vec<Picture>, Error> {
+fn draw_own(case: &Case, study: &CaseStudy, gathered: &Gathered, out: &Path) -> Result<Drawn, Error> {
     let folder = |r: &Record| gathered.folder(r).map(Path::to_path_buf);
     let mut gallery = Gallery::new(&study.case, &study.records, &folder, out);
     (case.pictures)(&mut gallery)?;
-    Ok(gallery.pictures())
+    Ok(gallery.done())
 }
 
 /// The file that names everything this program has written in a folder: it distinguishes a file of the user, which

@@ -1,16 +1,8 @@
 //! Cost of an error: the runs on the Pareto front, and the cost to reach a target error.
 
+use super::prelude::*;
 use super::words;
-use crate::cases;
-use crate::metric::Quantity;
-use crate::record::Record;
-use crate::scheme::{RemedyName, Scheme};
-use crate::study::convergence::{Convergence, Point, precision};
-use crate::study::judge::outcome_of_run;
-use crate::study::summary::CaseStudy;
-use crate::table::Sheet;
-use crate::verdict::Outcome;
-use std::collections::BTreeMap;
+use crate::study::convergence::{Point, precision};
 
 /// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
 /// no other beats in both.

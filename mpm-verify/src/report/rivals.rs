@@ -1,13 +1,12 @@
 //! Explicit and implicit runs of what both can solve, at equal error: cost, steps and iterations.
 
+use super::prelude::*;
 use super::words::list;
-use crate::cases;
-use crate::record::{Record, Status};
+use crate::record::Status;
 use crate::results::{SHORT, fixed};
-use crate::scheme::BasisName::{self, Bspline2, Gimp};
-use crate::scheme::RemedyName::{self, FbarConsistent, None as Standard};
+use crate::scheme::BasisName::{Bspline2, Gimp};
+use crate::scheme::RemedyName::{FbarConsistent, None as Standard};
 use crate::scheme::TransferName;
-use crate::table::Sheet;
 use std::f64::consts::PI;
 
 /// Name of the table on pages.

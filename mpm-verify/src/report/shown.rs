@@ -1,22 +1,16 @@
 //! The pictures that README and docs show, each with what it is drawn from.
 
+use super::prelude::*;
 use super::speed::Speed;
 use super::{convergence, draw_own, rows, solvers, sweep, together};
 use crate::bench;
 use crate::case::Tier;
-use crate::cases;
 use crate::draw::write_small_png;
-use crate::error::Error;
-use crate::files::{DOCUMENT, discard, make_folder, read, write_whole};
-use crate::gallery::{Gallery, Picture};
-use crate::record::Record;
+use crate::files::{DOCUMENT, discard, make_folder, read};
 use crate::study::convergence::convergence;
-use crate::study::gather::Gathered;
-use crate::study::summary::CaseStudy;
 use image::RgbImage;
 use image::imageops::{self, FilterType};
 use std::fs;
-use std::path::{Path, PathBuf};
 
 /// Most bytes of a picture.
 const MOST: u64 = 150_000;
@@ -144,7 +138,7 @@ fn draw_runs(folders: &[PathBuf], out: &Path) -> Result<Tier, Error> {
     let found = gathered.judge(|_| Ok(Vec::new()))?;
     let tier = Tier::parse(&found.tier)?;
     for study in &found.cases {
-        let _: Vec<Picture> = draw_own(cases::find(&study.case)?, study, &gathered, out)?;
+        draw_own(cases::find(&study.case)?, study, &gathered, out)?;
     }
     Ok(tier)
 }

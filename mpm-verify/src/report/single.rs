@@ -1,17 +1,11 @@
 //! The pictures of one run by itself.
 
+use super::prelude::*;
 use super::words::number;
 use super::{draw_own, owning};
-use crate::case::Case;
-use crate::draw::{Chart, FieldFigure, FieldPanel, Series, draw_charts, draw_fields};
-use crate::error::Error;
-use crate::gallery::Picture;
-use crate::record::Record;
+use crate::draw::{FieldFigure, FieldPanel, draw_charts, draw_fields};
 use crate::run::series;
-use crate::study::gather::Gathered;
-use crate::study::summary::CaseStudy;
 use crate::table::Table;
-use std::path::Path;
 
 /// Draws what the case draws of the run in `folder` and, against time, what its readers should see first. The pictures
 /// lie in a folder of the case's name.
@@ -22,7 +16,7 @@ pub fn draw(case: &Case, record: &Record, folder: &Path) -> Result<Vec<Picture>,
     let study = CaseStudy::new(&record.case, vec![record.clone()]);
     let gathered = Gathered::single(record.clone(), folder);
     owning(folder, || {
-        let mut pictures = draw_own(case, &study, &gathered, folder)?;
+        let (mut pictures, _) = draw_own(case, &study, &gathered, folder)?;
         pictures.extend(own(case, record, folder, folder)?);
         Ok(pictures)
     })

@@ -1,12 +1,10 @@
 //! Cost of the errors of some problems, by explicit steps and by implicit ones of several lengths.
 
-use crate::draw::{Dash, Marker, Series};
-use crate::error::Error;
+use super::prelude::*;
+use crate::draw::{Dash, Marker};
 use crate::figure::{Figure, Panel};
-use crate::gallery::Gallery;
-use crate::record::Record;
-use crate::scheme::BasisName::{self, Bspline2, Gimp};
-use crate::scheme::RemedyName::{self, FbarConsistent, None as Standard};
+use crate::scheme::BasisName::{Bspline2, Gimp};
+use crate::scheme::RemedyName::{FbarConsistent, None as Standard};
 use crate::scheme::RuleName;
 
 /// One curve each.

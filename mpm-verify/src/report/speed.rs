@@ -1,16 +1,9 @@
 //! Speed against error of all problems: what a target error costs with each remedy, and when F̄ is worth its price.
 
+use super::prelude::*;
 use super::price::{Price, Prices};
 use super::words::list;
-use crate::cases;
-use crate::distinct;
 use crate::draw::{Ratio, Ratios, draw_ratios};
-use crate::error::Error;
-use crate::gallery::Picture;
-use crate::scheme::{BasisName, RemedyName, Scheme};
-use crate::study::summary::CaseStudy;
-use crate::table::Sheet;
-use std::path::Path;
 
 /// Standard MPM, and the F̄ that neither creeps nor makes energy: the two to choose from. The others are there for
 /// comparison.

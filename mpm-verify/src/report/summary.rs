@@ -1,19 +1,11 @@
 //! The summary in Markdown.
 
 use super::document::{Document, Table, Text};
+use super::prelude::*;
 use super::speed::Speed;
 use super::words::{self, bless_commands, local_orders, number, order};
 use super::{criteria, map, verdicts};
-use crate::cases;
-use crate::error::Error;
-use crate::files::write_whole;
 use crate::metric::Metric;
-use crate::record::Record;
-use crate::study::convergence::Convergence;
-use crate::study::summary::{CaseStudy, Summary};
-use crate::table::Sheet;
-use crate::verdict::Verdict;
-use std::path::Path;
 
 /// Writes `summary.md` into `out`: what failed and drifted, tables over all cases, and of each case the orders of what its
 /// table of results shows, at the parameters that have the most levels.

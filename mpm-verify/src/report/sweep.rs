@@ -1,17 +1,8 @@
 //! Errors over the values of a parameter.
 
 use super::errors::{Entry, Errors};
-use crate::case::Case;
-use crate::cases;
-use crate::error::Error;
-use crate::files::write_csv;
-use crate::gallery::Picture;
-use crate::metric::{Quantity, Sweep};
-use crate::record::Record;
-use crate::scheme::Scheme;
-use crate::study::summary::CaseStudy;
-use std::collections::BTreeMap;
-use std::path::Path;
+use super::prelude::*;
+use crate::metric::Sweep;
 
 /// Values of a parameter that make a sweep, at least.
 const LEAST_VALUES: usize = 3;

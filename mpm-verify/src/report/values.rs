@@ -49,7 +49,7 @@ impl Values {
         let refuse = |cause: &str| Error::Input(format!("the number \"{of}\": {cause}"));
         let parts = of.rsplit_once(' ');
         let (of_what, format) = parts.ok_or_else(|| refuse("a run, a metric and a format are wanted"))?;
-        let format = read(format).ok_or_else(|| refuse("a format is 2, e1, 1% or +1%"))?;
+        let format = read_format(format).ok_or_else(|| refuse("a format is 2, e1, 1% or +1%"))?;
         let value = |of: &str| self.value(of).map_err(refuse);
         let value = match of_what.split_once(" / ") {
             Some((over, under)) => value(over)? / value(under)?,
@@ -63,17 +63,22 @@ impl Values {
         let (run, metric) = of.rsplit_once(' ').ok_or("a run and a metric are wanted")?;
         let run = self.0.iter().find(|(known, _)| known == run);
         let (_, record) = run.ok_or("no such run is kept")?;
-        let value = match metric {
-            "cpu_s" => record.time.cpu_s,
-            "steps" => record.work.steps as f64,
-            "breakdown" => record.error.as_ref().map_or(f64::NAN, |e| e.time),
-            metric => record.value(metric),
-        };
-        Some(value).filter(|v| v.is_finite()).ok_or("its row keeps no such metric")
+        Some(quantity(record, metric)).filter(|v| v.is_finite()).ok_or("its row keeps no such metric")
     }
 }
 
-fn read(format: &str) -> Option<Format> {
+/// A metric of a run, its processor time (s), its number of steps, or the time (s) of its breakdown; NaN if there is none.
+pub(super) fn quantity(record: &Record, name: &str) -> f64 {
+    match name {
+        "cpu_s" => record.time.cpu_s,
+        "steps" => record.work.steps as f64,
+        "breakdown" => record.error.as_ref().map_or(f64::NAN, |e| e.time),
+        metric => record.value(metric),
+    }
+}
+
+/// A format of a number, if it is one.
+pub(super) fn read_format(format: &str) -> Option<Format> {
     let of: fn(usize) -> Format = match (format.strip_prefix('+'), format.strip_suffix('%')) {
         (Some(_), Some(_)) => percent,
         (None, Some(_)) => share,

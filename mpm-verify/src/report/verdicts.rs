@@ -1,16 +1,9 @@
 //! Verdicts as tables: on pages, in the summary and as CSV.
 
 use super::document::{Cell, Row, Table, Text};
+use super::prelude::*;
 use super::words::{kind, name, number, outcome, quantity};
-use crate::case::Case;
-use crate::error::Error;
-use crate::files::write_csv;
-use crate::record::Record;
 use crate::study::judge;
-use crate::study::summary::{CaseStudy, Summary};
-use crate::table::Sheet;
-use crate::verdict::{Kind, Verdict};
-use std::path::Path;
 
 const HEAD: [&str; 8] = ["outcome", "kind", "check", "metric", "value", "reference", "tolerance", "source"];
 

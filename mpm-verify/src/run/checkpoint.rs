@@ -58,64 +58,30 @@ pub enum Refusal {
     /// Another version of the format.
     #[error("a checkpoint of format {0} where {FORMAT} is expected")]
     Format(u32),
-    /// The end is missing.
-    #[error("truncated: {found} bytes where {expected} are expected")]
-    Truncated {
-        /// Bytes there are.
-        found: u64,
-        /// Bytes there should be.
-        expected: u64,
-    },
-    /// Some bytes have changed.
-    #[error("damaged: checksum {found:08x} where {expected:08x} is expected")]
-    Damaged {
-        /// Checksum of what is there.
-        found: u32,
-        /// Checksum of what was written.
-        expected: u32,
-    },
+    /// The end is missing: bytes there are, and there should be.
+    #[error("truncated: {0} bytes where {1} are expected")]
+    Truncated(u64, u64),
+    /// Some bytes have changed: checksum of what is there, and of what was written.
+    #[error("damaged: checksum {0:08x} where {1:08x} is expected")]
+    Damaged(u32, u32),
     /// Sound bytes that mean nothing.
     #[error("can't be read: {0}")]
     Content(String),
-    /// Another case, scheme, level or twin.
-    #[error("of another run: {found}, not {asked}")]
-    Run {
-        /// The run there.
-        found: String,
-        /// The run asked for.
-        asked: String,
-    },
-    /// The same run at another value of a parameter.
-    #[error("of other parameters: {name} = {found}, not {asked}")]
-    Parameter {
-        /// The parameter.
-        name: String,
-        /// Its value there.
-        found: String,
-        /// Its value asked for.
-        asked: String,
-    },
-    /// Other sources.
-    #[error("of another program: source {found}, not {here}")]
-    Program {
-        /// Fingerprint there.
-        found: String,
-        /// Fingerprint of this program.
-        here: String,
-    },
+    /// Another case, scheme, level or twin: the run there, and the one asked for.
+    #[error("of another run: {0}, not {1}")]
+    Run(String, String),
+    /// The same run at another value of a parameter: its name, its value there, and the one asked for.
+    #[error("of other parameters: {0} = {1}, not {2}")]
+    Parameter(String, String, String),
+    /// Other sources: the fingerprint there, and that of this program.
+    #[error("of another program: source {0}, not {1}")]
+    Program(String, String),
     /// The series is not the one that the checkpoint was written beside.
     #[error("{} is not the series that it was written with", crate::run::series::FILE)]
     Series,
-    /// A file beside the record differs from the one the run wrote.
-    #[error("{name} is {found}, not the {recorded} that the run has written")]
-    File {
-        /// The file.
-        name: String,
-        /// Mark of the present file.
-        found: String,
-        /// Mark of the file as written.
-        recorded: String,
-    },
+    /// A file beside the record differs from the one the run wrote: its name, its mark, and the mark as written.
+    #[error("{0} is {1}, not the {2} that the run has written")]
+    File(String, String, String),
     /// The job is not one of this memory.
     #[error(transparent)]
     Memory(#[from] MemoryError),
@@ -165,14 +131,14 @@ impl Identity {
     /// The first difference: run, parameters, program.
     pub fn require(&self, found: &Self) -> Result<(), Refusal> {
         if found.run != self.run {
-            return Err(Refusal::Run { found: found.run.clone(), asked: self.run.clone() });
+            return Err(Refusal::Run(found.run.clone(), self.run.clone()));
         }
         let differences = found.parameters.differences(&self.parameters);
         if let Some((name, found, asked)) = differences.into_iter().next() {
-            return Err(Refusal::Parameter { name, found, asked });
+            return Err(Refusal::Parameter(name, found, asked));
         }
         if found.program != self.program {
-            return Err(Refusal::Program { found: found.program.source.clone(), here: self.program.source.clone() });
+            return Err(Refusal::Program(found.program.source.clone(), self.program.source.clone()));
         }
         Ok(())
     }
@@ -251,7 +217,7 @@ fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
     let Some(rest) = bytes.strip_prefix(&MAGIC) else {
         return Err(Refusal::NotACheckpoint);
     };
-    let missing = |expected| Refusal::Truncated { found: bytes.len() as u64, expected };
+    let missing = |expected| Refusal::Truncated(bytes.len() as u64, expected);
     let head = |size: usize| missing((MAGIC.len() + size) as u64);
     let (format, rest) = rest.split_first_chunk().ok_or_else(|| head(4))?;
     if u32::from_le_bytes(*format) != FORMAT {
@@ -267,7 +233,7 @@ fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
     let checksum = u32::from_le_bytes(*checksum);
     match crc32fast::hash(content) {
         found if found == checksum => Ok(content),
-        found => Err(Refusal::Damaged { found, expected: checksum }),
+        found => Err(Refusal::Damaged(found, checksum)),
     }
 }
 

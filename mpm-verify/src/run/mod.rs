@@ -3,6 +3,7 @@
 pub mod checkpoint;
 pub mod series;
 pub mod size;
+pub mod slim;
 pub mod vtu;
 
 use crate::case::Case;
@@ -251,8 +252,8 @@ fn tables(folder: &Path) -> Result<Vec<String>, Error> {
 pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
     require_inside(folder, Path::new(SNAPSHOTS))?;
     let there = tables(folder)?;
-    let needed = [series::FILE, PARTICLES].map(str::to_owned);
-    let names: BTreeSet<&String> = record.files.keys().chain(&there).chain(&needed).collect();
+    let needed = series::FILE.to_owned();
+    let names: BTreeSet<&String> = record.files.keys().chain(&there).chain([&needed]).collect();
     for name in names {
         let found = match there.contains(name) {
             true => Some(Mark::of(&read(&folder.join(name), TABLE)?)),
@@ -264,9 +265,7 @@ pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
                 let of = |m: Mark| format!("{} bytes of checksum {:08x}", m.bytes, m.checksum);
                 mark.map_or("nothing".to_owned(), of)
             };
-            let (found, recorded) = (told(found), told(recorded));
-            let name = name.clone();
-            return Err(Refusal::File { name, found, recorded }.of(&folder.join(RECORD)));
+            return Err(Refusal::File(name.clone(), told(found), told(recorded)).of(&folder.join(RECORD)));
         }
     }
     Ok(())
@@ -323,13 +322,9 @@ fn drive(
 
 fn failure(error: &mpm_core::Error) -> Failure {
     let message = error.to_string();
-    let before_any_step = |kind: &str, value: Option<f64>| Failure {
-        kind: kind.to_owned(),
-        time: 0.0,
-        step: 0,
-        particle: 0,
-        value,
-        message: message.clone(),
+    let before_any_step = |kind: &str, value: Option<f64>| {
+        let (kind, message) = (kind.to_owned(), message.clone());
+        Failure { kind, time: 0.0, step: 0, particle: 0, value, message }
     };
     let finite = |value: f64| Some(value).filter(|v| v.is_finite());
     match *error {

@@ -9,8 +9,7 @@ use crate::files::write_whole;
 use crate::job::Column;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, Event};
+use quick_xml::escape::escape;
 use std::io::{self, Write};
 use std::path::Path;
 
@@ -36,142 +35,79 @@ pub fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
 /// # Errors
 /// The file can't be written.
 pub fn write_pvd(path: &Path, members: &[(f64, String)]) -> Result<(), Error> {
-    let document = collection(members).map_err(|e| Error::file(path, e))?;
-    write_whole(path, &document)
+    write_whole(path, collection(members).as_bytes())
 }
 
-fn collection(members: &[(f64, String)]) -> io::Result<Vec<u8>> {
-    let mut w = begin("Collection", &[])?;
-    open(&mut w, "Collection", &[])?;
-    for (time, file) in members {
-        let time = time.to_string();
-        let attributes = [("timestep", &*time), ("part", "0"), ("file", file)];
-        w.write_event(Event::Empty(element("DataSet", &attributes)))?;
-    }
-    close(&mut w, "Collection")?;
-    close(&mut w, "VTKFile")?;
-    Ok(w.into_inner())
+fn collection(members: &[(f64, String)]) -> String {
+    let member = |(time, file): &(f64, String)| {
+        format!("  <DataSet timestep=\"{time}\" part=\"0\" file=\"{}\"/>\n", escape(file))
+    };
+    let members: String = members.iter().map(member).collect();
+    format!("{} <Collection>\n{members} </Collection>\n</VTKFile>", begin("Collection", ""))
+}
+
+/// The beginning of a VTK file of a kind, with more attributes.
+fn begin(kind: &str, more: &str) -> String {
+    format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\"{more}>\n"
+    )
 }
 
 fn grid(columns: &[Column]) -> io::Result<Vec<u8>> {
-    let particles = columns.first().map_or(0, |c| c.values.len());
-    let n = particles.to_string();
-    let size = [("NumberOfPoints", &*n), ("NumberOfCells", &*n)];
-    let compressor = [("header_type", "UInt64"), ("compressor", "vtkZLibDataCompressor")];
-    let mut w = begin("UnstructuredGrid", &compressor)?;
-    let mut appended = Vec::new();
-    open(&mut w, "UnstructuredGrid", &[])?;
-    open(&mut w, "Piece", &size)?;
-    describe_points(&mut w, columns, particles, &mut appended)?;
-    describe_cells(&mut w, particles, &mut appended)?;
-    open(&mut w, "PointData", &[])?;
-    for c in columns.iter().filter(|c| !AXES.contains(&c.name)) {
-        let name = format!("{} ({})", c.name, c.unit);
-        let values = singles(c.values.iter().copied());
-        array(&mut w, ("Float32", &name, "1"), &values, &mut appended)?;
-    }
-    for name in ["PointData", "Piece", "UnstructuredGrid"] {
-        close(&mut w, name)?;
-    }
-    open(&mut w, "AppendedData", &[("encoding", "raw")])?;
-    w.get_mut().push(b'_');
-    w.get_mut().append(&mut appended);
-    close(&mut w, "AppendedData")?;
-    close(&mut w, "VTKFile")?;
-    Ok(w.into_inner())
-}
-
-fn describe_points(
-    w: &mut Writer<Vec<u8>>,
-    columns: &[Column],
-    particles: usize,
-    appended: &mut Vec<u8>,
-) -> io::Result<()> {
+    let n = columns.first().map_or(0, |c| c.values.len());
     let axes = AXES.map(|name| columns.iter().find(|c| c.name == name));
     let place = |k: usize| axes.map(|axis| axis.map_or(0.0, |c| c.values[k]));
-    let places = singles((0..particles).flat_map(place));
-    open(w, "Points", &[])?;
-    array(w, ("Float32", "position (m)", "3"), &places, appended)?;
-    close(w, "Points")
-}
-
-/// Describes a cell for every particle.
-fn describe_cells(w: &mut Writer<Vec<u8>>, particles: usize, appended: &mut Vec<u8>) -> io::Result<()> {
-    let counted = |from: usize| (from..from + particles).flat_map(|k| (k as u64).to_le_bytes());
-    let [points, ends] = [0, 1].map(|from| counted(from).collect::<Vec<u8>>());
-    open(w, "Cells", &[])?;
-    for (kind, name, bytes) in
-        [("Int64", "connectivity", points), ("Int64", "offsets", ends), ("UInt8", "types", vec![VERTEX; particles])]
-    {
-        array(w, (kind, name, "1"), &bytes, appended)?;
+    let counted = |from: usize| (from..from + n).flat_map(|k| (k as u64).to_le_bytes()).collect::<Vec<u8>>();
+    let mut numbers = Vec::new();
+    let points = array(("Float32", "position (m)", 3), &singles((0..n).flat_map(place)), &mut numbers)?;
+    let mut cells = array(("Int64", "connectivity", 1), &counted(0), &mut numbers)?;
+    cells += &array(("Int64", "offsets", 1), &counted(1), &mut numbers)?;
+    cells += &array(("UInt8", "types", 1), &vec![VERTEX; n], &mut numbers)?;
+    let mut fields = String::new();
+    for c in columns.iter().filter(|c| !AXES.contains(&c.name)) {
+        let name = format!("{} ({})", c.name, c.unit);
+        fields += &array(("Float32", &name, 1), &singles(c.values.iter().copied()), &mut numbers)?;
     }
-    close(w, "Cells")
+    let compressor = " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
+    let head = format!(
+        "{} <UnstructuredGrid>\n  <Piece NumberOfPoints=\"{n}\" NumberOfCells=\"{n}\">\n   <Points>\n{points}   \
+         </Points>\n   <Cells>\n{cells}   </Cells>\n   <PointData>\n{fields}   </PointData>\n  </Piece>\n \
+         </UnstructuredGrid>\n <AppendedData encoding=\"raw\">_",
+        begin("UnstructuredGrid", compressor)
+    );
+    Ok([head.as_bytes(), &numbers, b"\n </AppendedData>\n</VTKFile>"].concat())
 }
 
 fn singles(values: impl Iterator<Item = f64>) -> Vec<u8> {
     values.flat_map(|v| (v as f32).to_le_bytes()).collect()
 }
 
-/// Describes an array of a type, name and number of components, and appends what it holds.
-fn array(
-    w: &mut Writer<Vec<u8>>,
-    (kind, name, components): (&str, &str, &str),
-    bytes: &[u8],
-    appended: &mut Vec<u8>,
-) -> io::Result<()> {
-    let offset = appended.len().to_string();
-    let attributes = [
-        ("type", kind),
-        ("Name", name),
-        ("NumberOfComponents", components),
-        ("format", "appended"),
-        ("offset", &offset),
-    ];
-    w.write_event(Event::Empty(element("DataArray", &attributes)))?;
-    compress(bytes, appended)
-}
-
-/// Appends compressed blocks behind their number, their size, that of the last if it is shorter (else 0), and what each
-/// is compressed to.
-fn compress(bytes: &[u8], appended: &mut Vec<u8>) -> io::Result<()> {
+/// The element of an array of a type, name and number of components, whose `bytes` are appended to the `numbers`: compressed
+/// blocks behind their number, their size, that of the last if it is shorter (else 0), and what each is compressed to.
+fn array((kind, name, components): (&str, &str, usize), bytes: &[u8], numbers: &mut Vec<u8>) -> io::Result<String> {
+    let offset = numbers.len();
     let blocks = bytes.chunks(BLOCK).map(|block| {
         let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
         encoder.write_all(block)?;
         encoder.finish()
     });
     let blocks = blocks.collect::<io::Result<Vec<_>>>()?;
-    let sizes = blocks.iter().map(Vec::len);
-    let header = [blocks.len(), BLOCK, bytes.len() % BLOCK].into_iter();
-    appended.extend(header.chain(sizes).flat_map(|n| (n as u64).to_le_bytes()));
-    appended.extend(blocks.concat());
-    Ok(())
-}
-
-/// A VTK file of a type, with more attributes.
-fn begin(kind: &str, more: &[(&str, &str)]) -> io::Result<Writer<Vec<u8>>> {
-    let mut w = Writer::new_with_indent(Vec::new(), b' ', 1);
-    w.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let common = [("type", kind), ("version", "1.0"), ("byte_order", "LittleEndian")];
-    open(&mut w, "VTKFile", &[&common, more].concat())?;
-    Ok(w)
-}
-
-fn element<'a>(name: &'a str, attributes: &[(&str, &str)]) -> BytesStart<'a> {
-    BytesStart::new(name).with_attributes(attributes.iter().copied())
-}
-
-fn open(w: &mut Writer<Vec<u8>>, name: &str, attributes: &[(&str, &str)]) -> io::Result<()> {
-    w.write_event(Event::Start(element(name, attributes)))
-}
-
-fn close(w: &mut Writer<Vec<u8>>, name: &str) -> io::Result<()> {
-    w.write_event(Event::End(BytesEnd::new(name)))
+    let header = [blocks.len(), BLOCK, bytes.len() % BLOCK].into_iter().chain(blocks.iter().map(Vec::len));
+    numbers.extend(header.flat_map(|n| (n as u64).to_le_bytes()));
+    numbers.extend(blocks.concat());
+    Ok(format!(
+        "    <DataArray type=\"{kind}\" Name=\"{}\" NumberOfComponents=\"{components}\" format=\"appended\" \
+         offset=\"{offset}\"/>\n",
+        escape(name)
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use quick_xml::Reader;
+    use quick_xml::events::Event;
     use std::collections::BTreeMap;
     use std::io::Read;
 
@@ -281,7 +217,7 @@ mod tests {
     fn a_collection_names_its_members_with_their_times() {
         let file = |name: &str| format!("snapshots/{name}.vtu");
         let members = [(0.025, file("000.025")), (1.0, file("001.000"))];
-        let (elements, _) = parse(&collection(&members).unwrap());
+        let (elements, _) = parse(collection(&members).as_bytes());
         let sets = elements.iter().filter(|(name, _)| name == "DataSet");
         let sets: Vec<_> = sets.map(|(_, a)| (&*a["timestep"], &*a["file"])).collect();
         assert_eq!(sets, [("0.025", "snapshots/000.025.vtu"), ("1", "snapshots/001.000.vtu")]);

@@ -1,12 +1,8 @@
 //! Whether everything that is planned has been measured: a plan against the rows that are kept of nights.
 
 use super::plan::Plan;
-use crate::error::Error;
+use super::*;
 use crate::files::read_rows;
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::fmt;
-use std::path::Path;
 
 /// Key of a kept row's run, and its program; the row has more columns.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]

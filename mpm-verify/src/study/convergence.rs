@@ -1,14 +1,9 @@
 //! Convergence and work–precision of a case: every quantity of every scheme over the levels.
 
+use super::*;
 use crate::accuracy::{Order, Richardson, extrapolate, fit_order};
-use crate::case::Case;
 use crate::cases::parameters::is_of_own_problem;
-use crate::distinct;
 use crate::metric::Quantity;
-use crate::record::Record;
-use crate::scheme::Scheme;
-use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// Levels that show an order, at least.
 const LEAST_LEVELS: usize = 3;

@@ -1,14 +1,9 @@
 //! Results of runs in their folders.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::files::read_versioned;
-use crate::parameter::Parameters;
-use crate::record::{self, Record, Version};
+use super::*;
+use crate::record;
 use crate::run::checkpoint::{Identity, Refusal};
-use crate::run::{RECORD, require_tables};
-use crate::spec::RunSpec;
-use std::path::Path;
+use crate::run::require_tables;
 
 /// The record of a run in `folder`, if the run has ended there. One of this program is of the parameters asked for, says
 /// what can be, and vouches for the tables beside it; of another program's only the run is known.
@@ -35,8 +30,8 @@ pub fn own_record(folder: &Path, case: &Case, spec: &RunSpec) -> Result<Option<R
     let record: Record = read_versioned(&path, record::SCHEMA)?;
     let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
     let verdict = match asked.require(&Identity::of_record(&record)) {
-        Err(Refusal::Program { .. }) => Ok(()),
-        Err(Refusal::Parameter { .. }) if record.version != Version::current() => Ok(()),
+        Err(Refusal::Program(..)) => Ok(()),
+        Err(Refusal::Parameter(..)) if record.version != Version::current() => Ok(()),
         Ok(()) => require_possible(&record),
         refused => refused,
     };

@@ -5,17 +5,9 @@ use super::found::record_in;
 use super::judge::judge;
 use super::plan::{Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
-use crate::case::{Case, Tier, find_level};
-use crate::cases;
-use crate::error::Error;
-use crate::files::{read_versioned, require_inside};
-use crate::record::{self, Record};
-use crate::run::RECORD;
-use crate::spec::RunSpec;
-use crate::verdict::Verdict;
+use super::*;
+use crate::record;
 use rayon::prelude::*;
-use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
 /// The runs of a whole plan, gathered from the folders of its shards.
 #[derive(Debug)]
@@ -166,6 +158,8 @@ fn judged(
     let mut study = study.clone();
     let case = cases::find(&study.case)?;
     study.records.par_iter_mut().try_for_each(|record| {
+        // What it vouches for was compared when it was read.
+        record.files.clear();
         record.verdicts = judge(case, record);
         record.verdicts.extend(drift(record)?);
         Ok::<(), Error>(())

@@ -1,15 +1,10 @@
 //! Verdicts on one run.
 
-use crate::case::Case;
+use super::*;
 use crate::check::Finding;
-use crate::error::{Error, ExitCode};
-use crate::record::{BREAKS_DOWN, Record, Status};
-use crate::run::checkpoint::Saving;
+use crate::error::ExitCode;
+use crate::record::BREAKS_DOWN;
 use crate::run::{Progress, execute};
-use crate::scheme::Scheme;
-use crate::spec::RunSpec;
-use crate::verdict::{Kind, Outcome, Verdict};
-use std::path::Path;
 
 /// Runs `spec` of `case` and judges it: see [`execute`].
 ///

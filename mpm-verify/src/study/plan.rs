@@ -1,17 +1,9 @@
 //! Plan of a folder of runs, and the share of it to run.
 
-use crate::case::{Case, Tier, find_level};
-use crate::cases;
-use crate::distinct;
-use crate::error::Error;
+use super::*;
 use crate::files::write_json;
-use crate::parameter::Parameters;
-use crate::scheme::Scheme;
-use crate::spec::{RunSpec, run_folder};
-use serde::{Deserialize, Serialize};
+use crate::spec::run_folder;
 use std::collections::BTreeSet;
-use std::fmt;
-use std::path::{Path, PathBuf};
 
 /// Version of the plan's format.
 const SCHEMA: u32 = 1;

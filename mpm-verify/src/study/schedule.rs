@@ -3,16 +3,10 @@
 use super::found::record_in;
 use super::judge::judged_run;
 use super::plan::Plan;
-use crate::case::Case;
-use crate::error::Error;
+use super::*;
 use crate::files::lock::hold;
-use crate::files::require_inside;
-use crate::record::{Record, Version};
-use crate::run::checkpoint::Saving;
 use crate::run::discard_run;
 use crate::run::size::{Size, require_together};
-use crate::spec::RunSpec;
-use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.

@@ -2,14 +2,10 @@
 
 use super::convergence::Convergence;
 use super::judge::{broke_as_known, outcome_of_run};
-use crate::cases;
+use super::*;
 use crate::error::ExitCode;
 use crate::gallery::Picture;
 use crate::night::Night;
-use crate::record::{Record, Version};
-use crate::verdict::{Kind, Outcome, Verdict};
-use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// Version of the summary's format.
 pub const SCHEMA: u32 = 4;

@@ -5,11 +5,8 @@ mod page;
 pub(super) mod terminal;
 
 use super::words;
-use crate::gallery::Picture;
-use crate::table::Sheet;
-use crate::verdict::Outcome;
+use crate::report::prelude::*;
 use serde::Serialize;
-use std::path::Path;
 
 /// A part of a text: its kind, words, and target of a link or class of a mark.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -112,6 +109,17 @@ impl Text {
         let all = texts.reduce(|all, next| all.then(between).then(next));
         all.unwrap_or_default()
     }
+}
+
+/// Texts of pages, by section; paragraphs are apart by an empty line.
+const PROSE: &str = include_str!("../../../assets/prose.md");
+
+/// The paragraphs of a section of the pages' texts, each on one line.
+pub(super) fn prose(section: &str) -> impl Iterator<Item = Text> {
+    let sections = PROSE.split("## ").filter_map(|part| part.split_once('\n'));
+    let own = sections.filter(move |(name, _)| *name == section);
+    let paragraphs = own.flat_map(|(_, text)| text.trim_end().split("\n\n"));
+    paragraphs.map(|paragraph| Text::marked(&paragraph.replace('\n', " ")))
 }
 
 /// A cell of a table.

@@ -1,13 +1,11 @@
 //! Documents as pages in HTML, by a template.
 
 use super::{Block, Document, Text};
-use crate::error::Error;
-use crate::files::write_whole;
+use crate::report::prelude::*;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
-use std::path::Path;
 
 /// Variables of a page's template.
 #[derive(Serialize)]

@@ -2,23 +2,14 @@
 //! folded.
 
 use super::{anchor, pictures, run};
-use crate::case::Case;
-use crate::distinct;
 use crate::draw::sketch;
-use crate::metric::Quantity;
-use crate::record::Record;
 use crate::report::document::{Cell, Document, Row, Table, Text};
 use crate::report::faults::{self, Fault};
+use crate::report::prelude::*;
 use crate::report::price::Prices;
 use crate::report::verdicts::{self, tightest};
 use crate::report::words::{OUTCOMES, kind, local_orders, made_by, number, order};
 use crate::spec::Level;
-use crate::study::convergence::Convergence;
-use crate::study::judge::outcome_of_run;
-use crate::study::summary::CaseStudy;
-use crate::table::Sheet;
-use crate::verdict::{Kind, Outcome, Verdict};
-use std::path::Path;
 
 pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
     let mut page = Document::new(case.title);

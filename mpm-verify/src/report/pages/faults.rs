@@ -1,7 +1,7 @@
 //! The page of the seeded faults: which check of which case sees which.
 
 use crate::cases;
-use crate::report::document::{Cell, Document, Row, Table, Text};
+use crate::report::document::{Cell, Document, Row, Table, Text, prose};
 use crate::report::faults::Fault;
 use crate::study::summary::Summary;
 
@@ -47,10 +47,6 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
             .then(" nothing else detects it: the fault would be lost with that check."),
     );
     page.table("Faults and cases", table);
-    page.note(Text::marked(
-        "The faults are those of the last run of `just mutants` and not of this report. A fault is tried in all runs that reach \
-         its line; three sets, which take seconds each, are made for their own faults only. Every check by name: \
-         `docs/kill-matrix.md`.",
-    ));
+    prose("faults").for_each(|text| page.note(text));
     page
 }

@@ -1,21 +1,13 @@
 //! The index: recommended schemes, the result and cost of every scheme in every case, and the cases.
 
 use super::{docs, file_of, in_repository, pictures, run};
-use crate::cases;
-use crate::distinct;
-use crate::error::Error;
-use crate::gallery::Picture;
-use crate::record::Record;
 use crate::report::advice::advice;
-use crate::report::document::{Cell, Document, Row, Shown, Table, Text};
+use crate::report::document::{Cell, Document, Row, Shown, Table, Text, prose};
+use crate::report::prelude::*;
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
 use crate::report::verdicts::{self, tightest};
 use crate::report::{map, words::OUTCOMES};
-use crate::study::judge::outcome_of_run;
-use crate::study::summary::{CaseStudy, Summary};
-use crate::verdict::{Outcome, Verdict};
-use std::path::Path;
 
 /// The sections and the other files of a report.
 pub(super) fn links() -> Vec<Text> {
@@ -73,10 +65,7 @@ fn schemes(page: &mut Document) {
         return page.paragraph(Text::from("The table of ").then(readme).then(" is not available."));
     };
     page.table("Which scheme to take", table);
-    page.note(Text::from("The table of ").then(readme).then(Text::marked(
-        ". Its numbers are from the last nights, in seconds of one core, against standard MPM with the same functions and solver. The \
-         sections below use this tier's runs only. Reasons: `docs/remedy.md`, `docs/implicit.md` and `docs/poromechanics.md`.",
-    )));
+    prose("advice").for_each(|text| page.note(Text::from("The table of ").then(readme.clone()).then(text)));
 }
 
 fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
@@ -87,16 +76,7 @@ fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
     }
     let key = |[symbol, text, class]: [&str; 3]| Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"));
     page.paragraph(Text::joined(map::legend().map(key), " · "));
-    page.note(Text::marked(
-        "A cell shows the worst outcome of a scheme's runs in a case; it is pale if less than half of them have this outcome, and blank \
-         without runs. Hover over it for the counts, follow it to the case. **Noisy**: more than half of the mean square of the \
-         stress is noise, where that is measured, for runs that are right or wrong as known. **CFL**: the largest stable Courant number \
-         (tested up to 1) of particles that lie regularly, and of a body that fills a hundredth of its last cell. **Cost**: \
-         particle–node pairs for the target error of the motion (next table), over those of the cheapest scheme; the median over \
-         three motions or more, and in brackets the number of motions in which the scheme reaches it. A scheme is named by \
-         basis, remedy and transfer, by default FLIP; `static`, `midpoint` and `newmark` are implicit solvers \
-         ([legend](#legend)).",
-    ));
+    prose("map").for_each(|text| page.note(text));
     for panel in panels {
         page.heading(3, "", panel.name);
         let title = |case: &str| Text::link(case, format!("{case}.html"));
@@ -110,26 +90,17 @@ fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
 fn price(page: &mut Document, summary: &Summary, speed: &Speed, picture: Option<Shown>) {
     page.section("speed", "Speed against error: cost of accuracy");
     if speed.is_empty() {
-        return page.paragraph(Text::marked(
-            "The runs of this tier have too few levels for a comparison; that of all nights is in `docs/remedy.md`.",
-        ));
+        return prose("too-few-levels").for_each(|text| page.paragraph(text));
     }
     match ["nightly", "long"].contains(&&*summary.tier) {
         true => page.classed("lead", speed.advice()),
-        false => page.paragraph(Text::marked(
-            "What the runs of this tier show; they are few. Those of the last night are in `docs/remedy.md`.",
-        )),
+        false => prose("few-runs").for_each(|text| page.paragraph(text)),
     }
     if let Some(picture) = picture {
         page.picture(picture);
     }
     page.table("Speed against error", speed.table());
-    page.note(Text::marked(
-        "Target: the least error that half of the schemes reach. Pairs and CPU time: what the cheapest scheme needs for it, \
-         interpolated between levels; **≈** behind a scheme: one of those runs is wrong as known. Last columns: the cheapest scheme \
-         of each remedy, in multiples of these pairs; ≤ and ≥ are bounds, where the coarsest level reaches the target already; \
-         **never**: no run reaches it; –: not run at two levels.",
-    ));
+    prose("speed").for_each(|text| page.note(text));
 }
 
 /// The cases: how their runs came out, their tightest margins, what they cost.
@@ -174,33 +145,10 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
 
 fn legend(page: &mut Document) {
     page.section("legend", "Legend");
-    let says = [
-        " a check against an exact value, an independent reference or a law of physics holds, and no known limit is seen.",
-        " the run shows a known limit of its scheme, such as locking; the check fails when the limit vanishes.",
-        " no check against the truth applies. Bookkeeping (mass, counts, completion) judges nothing.",
-        " a check does not hold, or the run broke down and was not known to.",
-    ];
-    let outcomes = OUTCOMES.into_iter().zip(says);
+    let outcomes = OUTCOMES.into_iter().zip(prose("outcomes"));
     page.list(outcomes.map(|(outcome, says)| Text::badge(outcome).then(says)));
-    page.paragraph(Text::marked(
-        "An explicit scheme is `basis-remedy-transfer`, in tables without `flip`; an implicit one `rule-basis-remedy`; one of solid \
-         and water `poro-basis-space`.",
-    ));
-    let names = [
-        "Bases: `linear` hats, `gimp` (hats averaged over a particle's domain), `bspline2` and `bspline3` (quadratic and cubic \
-         splines), `q8` (elements of eight nodes).",
-        "Remedies for volumetric locking: `none` (standard MPM), `fbar-recursive` (as Zhao, Jiang & Choo print it, \
-         doi:10.1002/nme.7347), `fbar-total` and `fbar-rate` (variants for comparison), `fbar-consistent` (this project's: it keeps \
-         the balance of energy).",
-        "Transfers: `flip`, `apic`, `xpic2`, `musl` (FLIP that maps velocities back once more before the stress).",
-        "Rules of the implicit solver: `quasi-static` (in tables `static`), `midpoint`, `newmark`.",
-        "Spaces of the pore pressure: `two-grid` (cells twice as large as those of the displacement), `equal` (the same cells), \
-         `ppp` (the same, stabilised by a projection of the pressure).",
-        "Levels name the cells: `n16` per side, `h0.5` metres, `b20` per width. Tiers are sets of runs: `quick`, `pr` (of every pull \
-         request), `nightly`, `long`.",
-        "In pictures, colour is the remedy, marker the basis, a hollow marker a transfer other than FLIP.",
-    ];
-    page.list(names.map(Text::marked));
+    prose("schemes").for_each(|text| page.paragraph(text));
+    page.list(prose("names"));
 }
 
 fn failed(page: &mut Document, summary: &Summary) {

@@ -8,13 +8,8 @@ use super::document::{Shown, Text};
 use super::faults as seeded;
 use super::speed::Speed;
 use super::words;
-use crate::cases;
-use crate::error::Error;
-use crate::gallery::Picture;
-use crate::record::Record;
-use crate::study::summary::{CaseStudy, Summary};
+use crate::report::prelude::*;
 use std::env;
-use std::path::Path;
 
 /// Writes `index.html`, `faults.html` and the page of every case into `out`; on the index the picture of speed against
 /// error, if there is one.
