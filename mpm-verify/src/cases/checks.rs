@@ -1,11 +1,7 @@
 //! Judgements that checks of several cases share.
 
-use crate::accuracy::fit_order;
-use crate::metric::Metric;
-use crate::parameter::ParameterSet;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use mpm_core::monitor::Convergence;
-use std::collections::BTreeMap;
 
 /// Levels or steps that decide an order.
 pub(super) const DECIDING: usize = 3;

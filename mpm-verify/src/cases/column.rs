@@ -2,13 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/column.md`.
 
-use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::DENSITY;
+use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 /// Half a million steps at h = 0.25 m.
 const HALF_A_MILLION: &str = "duration=5.04";
@@ -38,7 +36,7 @@ impl Known for WaterColumn {
 }
 
 pub(super) fn case() -> Case {
-    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
+    let levels = levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = pairs(&SMOOTH, &REMEDIES);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
     let mut pr = pairs(&[Gimp], &[RemedyName::None, FbarRecursive, FbarConsistent]);

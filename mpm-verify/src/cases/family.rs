@@ -1,10 +1,7 @@
 //! Families of runs that several problems have.
 
-use crate::case::{Family, Tier};
-use crate::record::Record;
-use crate::results::{Column, Label, ResultTable, is_flip};
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
-use crate::spec::Level;
+use crate::case::Tier;
+use crate::prelude::*;
 
 /// Every basis.
 pub(super) const BASES: [BasisName; 4] = [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];

@@ -2,14 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::DYNAMIC;
+use crate::cases::prelude::*;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
 use crate::exact::common::AMPLITUDE;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::PI;
 
 #[derive(Debug, Clone)]
 struct Axes;

@@ -2,13 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
-use super::family::{BASES, REMEDIES, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
+use crate::cases::prelude::*;
 use crate::exact::double_shear::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::TAU;
 
 #[derive(Debug, Clone)]
 struct DoubleShear;
@@ -24,7 +21,7 @@ impl Known for DoubleShear {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
+    let levels = metre_levels()[..4].to_vec();
     // One wave across the body.
     let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());

@@ -2,12 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
-use super::family::{main_pairs, pairs};
 use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
+use crate::cases::prelude::*;
 use crate::exact::swirl::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 #[derive(Debug, Clone)]
 struct Swirl;
@@ -23,7 +21,7 @@ impl Known for Swirl {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..3].to_vec();
+    let levels = metre_levels()[..3].to_vec();
     let few = pairs(&SMOOTH, &COMPARED);
     let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());

@@ -2,12 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::{DYNAMIC, POISSON_RATIO};
+use crate::cases::prelude::*;
 use crate::exact::vortex_box::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 #[derive(Debug, Clone)]
 struct Vortex;

@@ -2,12 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
-use super::family::{REMEDIES, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
+use crate::cases::prelude::*;
 use crate::exact::vortex_pressure::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 #[derive(Debug, Clone)]
 struct PressedVortex;
@@ -22,7 +20,7 @@ impl Known for PressedVortex {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
+    let levels = metre_levels()[..4].to_vec();
     let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {

@@ -2,12 +2,9 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-ring.md`.
 
-use super::family::{main_pairs, other_transfers, pairs};
 use super::manufactured::*;
+use crate::cases::prelude::*;
 use crate::exact::vortex_ring::{ANGLE, ENTRY};
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::TAU;
 
 #[derive(Debug, Clone)]
 struct Ring;
@@ -27,7 +24,7 @@ const LARGE: f64 = 0.1;
 const EIGHTH: &str = "angle=0.7853981633974483";
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
+    let levels = metre_levels()[..4].to_vec();
     let few = main_pairs();
     let all = pairs(&[Gimp, Bspline2, Bspline3], &COMPARED);
     let all = [all, other_transfers()].concat();

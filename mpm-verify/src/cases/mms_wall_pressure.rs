@@ -3,14 +3,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::DYNAMIC;
+use crate::cases::prelude::*;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::PI;
 
 #[derive(Debug, Clone)]
 struct WallPressure;

@@ -1,19 +1,12 @@
 //! Set-up and observation shared by several problems.
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
-use crate::error::Error;
+use crate::cases::prelude::*;
 use crate::job::Column;
-use crate::parameter::{Parameter, ParameterSet, Parameters};
-use crate::record::Discretisation;
-use crate::scheme::{RuleName, Scheme};
-use crate::setup::Setup;
-use crate::spec::RunSpec;
-use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::stage::LocalDamping;
-use mpm_core::{Field, Particles, Simulation};
 
 impl<P: ParameterSet> Setup<P> {
     /// How B-splines meet walls, by the parameter `wall`.

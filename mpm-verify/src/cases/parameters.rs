@@ -1,8 +1,7 @@
 //! Parameters shared by several problems: each is read by its constant, so that a typo does not compile.
 
-use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters, choices, number, parameters};
-use crate::record::Record;
+use crate::parameter::{Domain, number};
+use crate::prelude::*;
 use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};

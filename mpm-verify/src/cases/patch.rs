@@ -2,15 +2,9 @@
 //!
 //! Set-up, choices and tolerances: `docs/patch.md`.
 
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::exact::transfers::{filtered, second_moment};
-use crate::prelude::*;
-use crate::statistics::rms;
-use mpm_core::material::NeoHookean;
-use mpm_core::stage::Gravity;
-use mpm_core::{Error as Fault, Law};
-use mpm_solvers::{Solvable, Solved, stable_cfl};
+use mpm_solvers::stable_cfl;
 use nalgebra::{Matrix3, SMatrix};
 use std::ops::AddAssign;
 
@@ -281,7 +275,7 @@ where
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(D, self.setup.ppc_per_direction.pow(D as u32), self.dt)
+        self.setup.regular(D, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<D>>, Fault> {
@@ -292,12 +286,9 @@ where
             let count = (cells + way / h + ROOM).ceil() as usize;
             Axis::bounded(0.0, count, (Side::Wall, Side::Open))
         };
-        let size = h / self.setup.ppc_per_direction as f64;
+        let size = self.setup.pitch();
         let along = cells as usize * self.setup.ppc_per_direction;
-        let place = |k: usize, a: usize| ((k / along.pow(a as u32) % along) as f64 + 0.5) * size;
-        let places = (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| place(k, a)));
-        let places = self.setup.start_at(places);
-        let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
+        let mut particles = self.setup.particles_at(by_rows([along; D], size), size, DENSITY)?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = self.exact(x, 0.0, self.lag())[1];
         }
@@ -310,14 +301,7 @@ where
         }
         let pull = self.setup.ways::<D>()[0].map(|way| 2.0 * way / DURATION.powi(2));
         let scene = Scene::new(Grid::new(h, ways.map(axis))?, Body::new(self.law, particles)?);
-        let scene = scene.load(Gravity(Box::new(move |_| pull)));
-        match self.setup.implicit_settings(self.dt) {
-            Some(settings) => mpm_solvers::implicit(self.setup.scheme, scene, settings),
-            None => {
-                let settings = self.setup.settings(self.dt, self.setup.damping)?;
-                mpm_solvers::solver(self.setup.scheme, scene, settings)
-            }
-        }
+        self.setup.moving(scene.load(Gravity(Box::new(move |_| pull))), self.dt, self.setup.damping)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<D>) -> Result<Row, Fault> {

@@ -1,11 +1,7 @@
 //! Parts shared by the pictures of several problems: their runs, curves by remedy, and their arrangement.
 
-use crate::draw::style::history;
-use crate::draw::{Chart, FieldFigure, Series, draw_charts, draw_fields};
-use crate::error::Error;
-use crate::gallery::Gallery;
-use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::cases::prelude::*;
+use crate::draw::draw_charts;
 use std::path::PathBuf;
 
 /// Whether a run came to its end and has the transfer that problems are shown with.

@@ -1,6 +1,6 @@
 //! Scenes and observations that cases of solid and water share.
 
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use mpm_core::poro::PressureSpace;
 
 /// Weight of water (N/m³).

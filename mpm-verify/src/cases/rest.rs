@@ -2,13 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
-use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 const HUNDRED_THOUSAND: &str = "duration=20";
 const MILLION: &str = "duration=200";
@@ -35,7 +33,7 @@ impl Known for Incline {
 }
 
 pub(super) fn case() -> Case {
-    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
+    let levels = levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = [RemedyName::None, FbarRecursive, FbarConsistent];
     let few = pairs(&SMOOTH, &few);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);

@@ -2,17 +2,15 @@
 //!
 //! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
-use super::family::{REMEDIES, implicit, pairs};
 use super::manufactured::*;
 use super::parameters::{DENSITY, DYNAMIC, FLIP, WALL, WALL_LINE};
+use crate::cases::prelude::*;
+use crate::exact;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use crate::exact::{self, Exact, Material};
-use crate::parameter::{Parameter, Parameters, number, parameters};
-use crate::prelude::*;
+use crate::parameter::number;
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::{PI, TAU};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.
@@ -127,7 +125,7 @@ fn compression(r: &Setup<()>) -> f64 {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..2].to_vec();
+    let levels = metre_levels()[..2].to_vec();
     let all = pairs(&SMOOTH, &REMEDIES);
     let held = pairs(&[Gimp], &[FbarConsistent]);
     let rules = [RuleName::Midpoint, RuleName::Newmark];

@@ -2,15 +2,12 @@
 //!
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
-use super::family::{BASES, REMEDIES, implicit, pairs};
 use super::manufactured::*;
 use super::parameters::{ALPHA, DELTA, DYNAMIC, LUMPED};
+use crate::cases::prelude::*;
+use crate::exact;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
-use crate::exact::{self, Exact};
-use crate::parameter::{Parameter, Parameters};
-use crate::prelude::*;
-use std::f64::consts::{PI, TAU};
 
 const LEVELS: [(&str, &str); 4] = [("n8", "8"), ("n16", "16"), ("n32", "32"), ("n64", "64")];
 const ORDERS: &[(Metric, Claims)] = &[(FREQUENCY_ERROR, claim_of_frequency), (DAMPING, claim_of_damping)];
@@ -87,7 +84,7 @@ fn is_cubic(r: &Setup<()>) -> bool {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
+    let levels = metre_levels()[..4].to_vec();
     let all = pairs(&BASES, &REMEDIES);
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[RemedyName::None]);

@@ -9,9 +9,7 @@ pub(super) mod foreign;
 mod reference;
 mod run;
 
-use super::parameters as common;
-use crate::prelude::*;
-use crate::results::BASIS;
+use crate::cases::prelude::*;
 use BasisName::Q8;
 use reference::solution;
 use run::{DEPTH, LENGTH};

@@ -3,12 +3,10 @@
 use super::edge::{Edge, extremes};
 use super::*;
 use crate::cases::checks::newton_rate;
-use crate::cases::parameters::require_quotient;
-use mpm_core::implicit::{Settings, Stabilisation};
-use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
-use mpm_core::simulation::Part;
+use mpm_core::implicit::Settings;
+use mpm_core::material::{Hypoelastic, JaumannUpdate};
 use mpm_core::stage::BodyForce;
-use mpm_solvers::{Solved, implicit};
+use mpm_solvers::implicit;
 use std::ops::RangeInclusive;
 
 /// Length and depth (m).
@@ -86,7 +84,7 @@ impl Setup<Cantilever> {
         let particles = Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let weight = self.weight / DENSITY;
         let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
-            .constrain(Wall { axis: 0, end: End::Lo, kind: WallKind::Fixed })
+            .constrain(clamp(0, End::Lo))
             .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
         let stabilisation = match self.stabilisation {
             Stabilised::None => Stabilisation::None,

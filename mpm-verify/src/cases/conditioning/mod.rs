@@ -5,10 +5,8 @@
 mod run;
 
 use super::analysis::case_of;
-use crate::parameter::Parameter;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::HALF_AXES;
-use std::collections::BTreeMap;
 
 const LEVELS: [Level; 1] = [Level { name: "h0.1", h: 0.1 }];
 /// Unknowns of the displacement, at most.

@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::checks::{finest, index, observed_order, orders_in_time};
 use crate::exact::consolidation::layer;
-use std::collections::BTreeMap;
 
 /// The order in h that theory gives.
 const THEORY: f64 = 2.0;

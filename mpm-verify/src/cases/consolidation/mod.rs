@@ -6,11 +6,9 @@ mod checks;
 pub(super) mod foreign;
 mod run;
 
-use super::family::levels;
 use super::poro::{ROUNDING, spaces};
+use crate::cases::prelude::*;
 use crate::exact::consolidation::{At, solution};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 use run::HEIGHT;
 
 const LEVELS: [(&str, f64); 6] =

@@ -9,11 +9,7 @@ mod probes;
 mod reference;
 mod run;
 
-use super::family::{REMEDIES, main_pairs, other_transfers, pairs, transfers};
-use super::parameters as common;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use crate::results::BASIS;
+use crate::cases::prelude::*;
 use reference::{LEFT_HEIGHT, LENGTH, MID_EDGE, TIP};
 
 /// Levels with their cell sizes (m) and titles.

@@ -2,8 +2,7 @@
 
 use super::reference::{LEFT_HEIGHT, Measure, RIGHT_HEIGHT};
 use super::*;
-use crate::probe::{PointProbe, nearest};
-use crate::statistics::rms;
+use crate::probe::nearest;
 
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;

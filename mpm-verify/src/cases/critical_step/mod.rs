@@ -4,12 +4,10 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, other_transfers, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::parameter::Domain;
-use crate::prelude::*;
 use crate::problem::begin;
-use mpm_core::material::{NeoHookean, Viscous};
+use mpm_core::material::Viscous;
 use run::{PERIOD, Trials};
 
 const LEVELS: [Level; 1] = [Level { name: "n6", h: 1.0 / PERIOD as f64 }];

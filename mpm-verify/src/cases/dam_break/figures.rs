@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{FieldFigure, FieldPanel, animate_fields, share_ranges_of_columns, signed};
+use crate::draw::{animate_fields, share_ranges_of_columns, signed};
 use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
 /// From above: standard, the paper's, ours.

@@ -8,13 +8,9 @@ mod flow;
 pub(super) mod foreign;
 mod run;
 
-use super::family::pairs;
-use super::parameters::{self as common, Wall as WallTreatment};
+use crate::cases::prelude::*;
 use crate::exact::dam_break::{DEPTH, GRAVITY, LENGTH, TANK};
 use crate::metric::Quantity as Studied;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use crate::results::BASIS;
 
 const LEVELS: [(&str, f64); 4] = [("h0.5", 0.5), ("h0.25", 0.25), ("h0.125", 0.125), ("h0.0625", 0.0625)];
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
@@ -50,7 +46,7 @@ parameters! {
         cfl: f64 = CFL,
             "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m";
         pic_rate: f64 = PIC_RATE, "share of PIC per unit of time, r: η = exp(−r Δt); 0 is FLIP";
-        wall: WallTreatment = common::WALL, "how B-splines meet floor and walls";
+        wall: common::Wall = common::WALL, "how B-splines meet floor and walls";
         ppc_per_direction: usize = whole("-", "5", 2, 8), "particles per cell and direction";
         seed: i32 = whole("-", "0", 0, 1000),
             "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one";

@@ -3,15 +3,9 @@
 use super::flow::{Flow, Start, State};
 use super::*;
 use crate::cases::observe::checkerboard;
-use crate::cases::parameters::require_quotient;
-use crate::exact::Exact;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::statistics::{fit_line, rms};
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::{Law, NewtonianFluid};
-use mpm_core::stage::{Gravity, LocalDamping, RigidNodes, smooth_rise};
-use mpm_core::{Error as Fault, Part};
+use mpm_core::explicit::Settings;
+use mpm_core::stage::{LocalDamping, RigidNodes, smooth_rise};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
 
@@ -135,9 +129,7 @@ fn grid(h: f64) -> Result<Grid<2>, Fault> {
 
 /// Particles row by row from the floor up, in columns from the back wall.
 fn seed(spacing: f64) -> Vec<[f64; 2]> {
-    let count = |length: f64| (length / spacing).round() as usize;
-    let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
-    (0..count(LENGTH)).flat_map(|i| (0..count(DEPTH)).map(move |j| [coordinate(i), coordinate(j)])).collect()
+    by_columns([LENGTH, DEPTH].map(|length| (length / spacing).round() as usize), spacing).collect()
 }
 
 /// Positions that differ from `places` in their last bits, at random, by the `seed`; zero keeps them.
@@ -287,7 +279,7 @@ impl Problem<2> for Dam {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     fn begin(&self, seen: &Observed) -> Result<Box<dyn Simulation<2>>, Fault> {

@@ -5,11 +5,7 @@
 mod flight;
 mod run;
 
-use super::family::implicit;
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
-use crate::parameter::{ParameterSet, Parameters};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::{CENTRES, IN_CONTACT, RADIUS};
 
 use RuleName::{Midpoint, Newmark};
@@ -59,7 +55,7 @@ parameters! {
         delta: f64 = common::DELTA;
         tolerance: f64 = common::TOLERANCE;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 

@@ -4,9 +4,7 @@
 
 mod run;
 
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// Rounding of sums over many steps.
 const ROUNDING: f64 = 1e-9;

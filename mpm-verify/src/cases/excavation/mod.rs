@@ -5,11 +5,8 @@
 mod run;
 mod scene;
 
-use super::family::implicit;
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
+use crate::cases::prelude::*;
 use crate::parameter::number;
-use crate::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
@@ -69,7 +66,7 @@ parameters! {
         alpha: f64 = common::ALPHA;
         delta: f64 = common::DELTA;
         tolerance: f64 = common::TOLERANCE;
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
     }
 }
@@ -404,7 +401,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         title,
         points: table.points("x", "y"),
         values: table.column("plastic_strain").to_vec(),
-        size: slope.spacing(),
+        size: slope.pitch(),
         outline: vec![(0.0, 0.0), (foot, 0.0), (foot, cut), (crest, HEIGHT), (0.0, HEIGHT)],
     };
     let figure = FieldFigure {

@@ -2,7 +2,6 @@
 
 use super::curve::mechanism_extent;
 use super::*;
-use crate::accuracy::fit_order;
 
 /// Relative tolerance of the limit load against Prandtl's at h ≤ B/20, by the width that the footing acts with.
 const PRANDTL: f64 = 0.01;

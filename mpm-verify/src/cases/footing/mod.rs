@@ -9,10 +9,7 @@ pub(super) mod foreign;
 mod reference;
 mod run;
 
-use super::family::{REMEDIES, implicit, levels, other_transfers, pairs, transfers};
-use super::parameters as common;
-use crate::parameter::Parameter;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::record::of_defaults;
 use RuleName::QuasiStatic;
 use reference::{EXACT, mean_stress_at, strength_ratio};

@@ -9,12 +9,8 @@ mod plane_strain;
 mod run;
 mod tables;
 
-use super::family::{more_particles, other_transfers, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
 use super::slope;
-use crate::case::Begin;
-use crate::parameter::{Parameter, ParameterSet};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::problem;
 use plane_strain::Beside;
 use run::Slide;
@@ -50,7 +46,7 @@ parameters! {
         duration: f64 = real("s", "5.5", 0.01, 60.0), "time after the reduction, or from where it begins";
         damping: f64 = common::DAMPING, "local damping after the reduction: with it the slope moves without inertia";
         cfl: f64 = slope::CFL;
-        wall: WallTreatment = slope::WALL;
+        wall: common::Wall = slope::WALL;
         ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
         width: f64 = real("m", "0", 0.0, 1000.0),
             "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";

@@ -1,12 +1,10 @@
 //! A slide in three dimensions with the same section in plane strain beside it.
 
 use super::*;
-use crate::job::{Column, Job, Pulse};
-use crate::parameter::Parameters;
+use crate::job::{Column, Pulse};
 use crate::problem::{Driver, measured};
-use crate::record::{Measured, WorkDone};
+use crate::record::Measured;
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Columns of a slide's series that are shown of the section beside it.

@@ -1,7 +1,6 @@
 //! Tables of the landslide, in plane strain and in three dimensions.
 
 use super::*;
-use crate::cases::family::transfers;
 
 const LEVEL: Label = ("level", |r| {
     let level = r.level.replace("slice-", "slice, ").replace('h', "");

@@ -5,10 +5,8 @@
 
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::{ROUNDING, spaces};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::{END, HEIGHT, WIDTH};
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];

@@ -1,12 +1,9 @@
 //! Derived quantities, scene and observations of the slab.
 
 use super::*;
-use crate::cases::parameters::{least_strain, require_quotient};
 use crate::cases::poro::{WATER_WEIGHT, above_rounding, mass_error, matrix_entries, outflow};
 use crate::exact::mandel::{self as exact, Cells, Slab, of_particles};
-use mpm_core::Part;
-use mpm_core::material::Hencky;
-use mpm_core::poro::{Conductivity, Plate, Settings, Water};
+use mpm_core::poro::{Plate, Settings};
 
 /// Half the width a, and half the height b (m).
 pub(super) const WIDTH: f64 = 1.0;
@@ -220,13 +217,11 @@ impl Problem<2> for Consolidation {
         let axis = |a: usize| Axis::bounded(0.0, cells[a] + ROOM[a], (Side::Wall, Side::Open));
         let grid = Grid::new(h, [axis(0), axis(1)])?;
         let spacing = h / PER_CELL as f64;
-        let row = cells[0] * PER_CELL;
-        let places = (0..row * cells[1] * PER_CELL).map(|k| [k % row, k / row].map(|i| (i as f64 + 0.5) * spacing));
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(c.start_at(places), spacing * spacing, 1000.0, [0.5 * spacing; 2])?;
+        let particles = c.particles_at(by_rows(cells.map(|n| n * PER_CELL), spacing), spacing, 1000.0)?;
         let law = Hencky::new(c.young_modulus, c.poisson_ratio)?;
-        let roller = |axis| Wall { axis, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(roller));
+        let scene =
+            Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(|axis| roller(axis, End::Lo)));
         let plate = Plate::new(1, move |x| x[1] > HEIGHT - 0.25 * h, move |_| -load);
         let water = Water::new(c.porosity, Conductivity::Constant(c.kappa()))
             .drained(move |x| x[0] > WIDTH - 0.25 * h)

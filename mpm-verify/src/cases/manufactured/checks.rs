@@ -12,16 +12,10 @@ pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
 
 use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRESS_L2};
-use crate::accuracy::fit_order;
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
-use crate::parameter::Parameters;
-use crate::prelude::*;
 use claims::{FORMAL, STALLED};
-use mpm_core::Law;
-use mpm_core::material::NeoHookean;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// A check of a run whose parameters are read by name.
 pub(in crate::cases) type Gate = CheckOf<()>;

@@ -1,8 +1,7 @@
 //! Sketch of the body with its supports.
 
 use super::{Boundary, Known};
-use crate::parameter::Parameters;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::sketch::Point;
 
 /// The body at rest, seen along the third axis; a bar is drawn with a thickness.

@@ -3,8 +3,6 @@
 use super::*;
 use crate::cases::checks::{finest, observed_order};
 use crate::cases::manufactured::checks::ladders;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/modes.md.
 const DISPERSION: f64 = 0.8;

@@ -5,12 +5,9 @@
 mod checks;
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::spaces;
+use crate::cases::prelude::*;
 use crate::exact::common as solutions;
-use crate::parameter::ParameterSet;
-use crate::prelude::*;
 use run::Moving;
 
 const LEVELS: [(&str, f64); 4] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)];

@@ -3,9 +3,7 @@
 use super::*;
 use crate::cases::poro::{WATER_WEIGHT, matrix_entries};
 use crate::exact::poro::{Moment, SolidAndWater};
-use crate::statistics::rms;
-use mpm_core::material::ImprovedHencky;
-use mpm_core::poro::{Conductivity, Gravity, Predictor, Settings, Tangent, Water};
+use mpm_core::poro::{Gravity, Predictor, Settings, Tangent};
 use mpm_core::stage::BodyForce;
 use mpm_solvers::Soaked;
 use std::array::from_fn;
@@ -134,21 +132,17 @@ where
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(D as u32);
-        self.setup.discretisation(D, ppc, self.setup.step())
+        self.setup.regular(D, self.setup.step())
     }
 
     fn begin(&self, (): &()) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         let (m, exact, h) = (&self.setup, self.solution, self.setup.h);
         let (law, conductivity) = m.own()?;
         let grid = Grid::new(h, [Axis::walls(0.0, (1.0 / h).round() as usize); D])?;
-        let spacing = h / m.ppc_per_direction as f64;
-        let along = (1.0 / spacing).round() as usize;
-        let places =
-            (0..along.pow(D as u32)).map(|k| from_fn(|a| ((k / along.pow(a as u32) % along) as f64 + 0.5) * spacing));
-        let particles =
-            Particles::new(m.start_at(places), spacing.powi(D as i32), exact.dry_density(), [0.5 * spacing; D])?;
-        let rollers = (0..D).flat_map(|axis| [End::Lo, End::Hi].map(|end| Wall { axis, end, kind: WallKind::Roller }));
+        let spacing = m.pitch();
+        let places = by_rows([(1.0 / spacing).round() as usize; D], spacing);
+        let particles = m.particles_at(places, spacing, exact.dry_density())?;
+        let rollers = (0..D).flat_map(|axis| [End::Lo, End::Hi].map(|end| roller(axis, end)));
         let force = BodyForce(Box::new(move |x: &[f64; D], t| {
             let force = exact.at(place(x), t).body_force;
             from_fn(|a| force[a])

@@ -6,9 +6,8 @@ mod run;
 
 use super::manufactured::*;
 use super::parameters::{self, POISSON_RATIO, UNSEEN};
+use crate::cases::prelude::*;
 use crate::exact::vortex_pressure::PRESSURE;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 use crate::results::Format;
 use run::SlowVortex;
 
@@ -27,7 +26,7 @@ metrics! { STATIC:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..3].to_vec();
+    let levels = metre_levels()[..3].to_vec();
     let mut checks = of_motion(claim, VORTEX);
     checks.push(stress_order(claim));
     checks.extend(locking());

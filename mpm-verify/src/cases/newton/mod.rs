@@ -6,9 +6,7 @@
 mod run;
 
 use super::checks::quadratic;
-use super::family::{implicit, levels};
-use super::parameters as common;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// The tolerance of Newton's method, with a share for rounding.
 const CONVERGED: f64 = 1e-7;

@@ -17,15 +17,11 @@ mod watch;
 mod tests;
 
 use super::family::family;
-use crate::case::{Begin, Case, Tier};
+use crate::case::Tier;
+use crate::cases::prelude::*;
 use crate::check::{checks, judge, run};
-use crate::error::Error;
 use crate::files::{Mark, read_text};
-use crate::job::Job;
-use crate::parameter::Parameters;
-use crate::problem::{Driver, Problem};
-use crate::scheme::Scheme;
-use crate::spec::{Level, RunSpec};
+use crate::problem::Driver;
 use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;

@@ -5,9 +5,7 @@
 mod jump;
 mod run;
 
-use super::family::{BASES, REMEDIES, levels, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::WAY;
 
 /// Speed over that of waves up to which only rounding and cells disturb the exact state.
@@ -27,7 +25,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 

@@ -3,9 +3,8 @@
 pub(super) mod ground;
 pub(super) mod section;
 
-use super::parameters as common;
-use crate::parameter::{Domain, Parameter, number, parameters};
-use crate::sketch::{Shape, Sketch};
+use crate::cases::prelude::*;
+use crate::parameter::{Domain, number};
 use section::Section;
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("25e6").within(number(1e3, 1e12, false));

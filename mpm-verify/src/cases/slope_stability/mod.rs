@@ -5,10 +5,8 @@
 
 mod run;
 
-use super::family::{implicit, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
 use super::slope::{self, ground::STABILITY};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::Trials;
 
 const LEVELS: [Level; 3] = [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1)];
@@ -33,7 +31,7 @@ parameters! {
         most: f64 = real("-", "3", 1.1, 100.0), "largest factor that is tried";
         trials: i32 = whole("-", "8", 1, 20), "trials: the largest factor, then bisection";
         cfl: f64 = slope::CFL;
-        wall: WallTreatment = slope::WALL;
+        wall: common::Wall = slope::WALL;
         ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
         load_steps: i32 = common::LOAD_STEPS, "quasi-static: equal steps in which the weight is raised";
         tolerance: f64 = common::TOLERANCE.with_default("1e-8");

@@ -6,10 +6,8 @@ mod checks;
 mod run;
 
 use super::analysis::case_of;
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::parameter::Domain;
-use crate::prelude::*;
 
 choices! {
     /// Arrangement of the particles.

@@ -4,10 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, other_transfers, pairs};
-use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
-use crate::parameter::Parameters;
-use crate::prelude::*;
+use super::parameters::TimeStep;
+use crate::cases::prelude::*;
 use run::{RADIUS, Spin};
 
 const LEVELS: [Level; 2] = [Level { name: "r4", h: 0.25 }, Level { name: "r8", h: 0.125 }];
@@ -30,7 +28,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 

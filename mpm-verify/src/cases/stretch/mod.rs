@@ -4,10 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, implicit, other_transfers, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::exact::stretched_lattice::FREE;
-use crate::prelude::*;
 use run::{SWING, Stretching};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 0.5 / FREE as f64 }];

@@ -1,9 +1,7 @@
 //! The checks of the strip. Tolerances are derived in `docs/strip.md`.
 
 use super::*;
-use crate::accuracy::fit_order;
 use crate::cases::checks::{DECIDING, SAFE, finest, index, observed_order, orders_in_time};
-use std::collections::BTreeMap;
 
 /// Largest contribution of finite strain, over q/G.
 const FINITE: f64 = 10.0;

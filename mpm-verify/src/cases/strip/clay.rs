@@ -1,7 +1,6 @@
 //! The clay by itself: the limit load of undrained clay without weight, and clay in uniaxial strain that water leaves freely.
 
 use super::*;
-use std::f64::consts::PI;
 
 /// Halvings of a bracket: until no number is left between its ends.
 const HALVINGS: u32 = 200;

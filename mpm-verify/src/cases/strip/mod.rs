@@ -9,11 +9,8 @@ mod figures;
 mod reference;
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::{ROUNDING, spaces};
-use crate::parameter::{Parameter, ParameterSet};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::results::Format;
 use run::SIDE;
 

@@ -1,13 +1,10 @@
 //! Derived quantities, scene and observations of half of a strip on a square of soil, or of a quarter of a square on a cube.
 
 use super::*;
-use crate::cases::parameters::require_quotient;
 use crate::cases::poro::{WATER_WEIGHT, above_rounding, matrix_entries, outflow};
-use crate::statistics::rms;
-use mpm_core::material::{CamClay, ImprovedHencky};
-use mpm_core::poro::{Conductivity, Face, Settings, Tangent, Water};
+use mpm_core::material::CamClay;
+use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
-use mpm_core::{Law, Part};
 use mpm_solvers::Soaked;
 use std::array::from_fn;
 
@@ -79,6 +76,7 @@ impl Setup<Strip> {
         self.half_width.powi(dimension as i32 - 1)
     }
 
+    /// Distance of particles (m).
     fn spacing(&self) -> f64 {
         self.h / PER_CELL as f64
     }
@@ -184,20 +182,11 @@ impl Setup<Strip> {
         axes[up] = Axis::bounded(0.0, cells(SIDE + ROOM), (Side::Wall, Side::Open));
         let grid = Grid::new(h, axes)?;
         let spacing = self.spacing();
-        let row = cells(SIDE) * PER_CELL;
-        let place = |k: usize| from_fn(|a| ((k / row.pow(a as u32) % row) as f64 + 0.5) * spacing);
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(
-            self.start_at((0..row.pow(D as u32)).map(place)),
-            spacing.powi(D as i32),
-            1000.0,
-            [0.5 * spacing; D],
-        )?;
-        let wall = |axis, end, kind| Wall { axis, end, kind };
-        let roller = |axis| [End::Lo, End::Hi].map(|end| wall(axis, end, WallKind::Roller));
+        let particles = self.particles_at(by_rows([cells(SIDE) * PER_CELL; D], spacing), spacing, 1000.0)?;
         let scene = Scene::new(grid, Body::new(law, particles)?)
-            .constrain_all([wall(up, End::Lo, WallKind::Fixed)])
-            .constrain_all((0..up).flat_map(roller));
+            .constrain(clamp(up, End::Lo))
+            .constrain_all((0..up).flat_map(|axis| [End::Lo, End::Hi].map(|end| roller(axis, end))));
         let (kappa, porosity) = (self.conductivity / WATER_WEIGHT, self.porosity);
         // c n³/(1 − n)² is κ₀ at n₀.
         let c = kappa * (1.0 - porosity).powi(2) / porosity.powi(3);

@@ -4,11 +4,9 @@
 
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::spaces;
+use crate::cases::prelude::*;
 use crate::exact::terzaghi as exact;
-use crate::prelude::*;
 use run::{FINITE, HEIGHT};
 
 const LEVELS: [(&str, f64); 5] = [("n10", 10.0), ("n20", 20.0), ("n40", 40.0), ("n80", 80.0), ("n160", 160.0)];

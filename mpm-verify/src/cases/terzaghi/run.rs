@@ -2,12 +2,9 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::parameters::{least_strain, require_quotient};
 use crate::cases::poro::{ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow};
 use crate::exact::terzaghi::FirstStep;
-use crate::statistics::rms;
-use mpm_core::material::Hencky;
-use mpm_core::poro::{Conductivity, Face, Settings, Water};
+use mpm_core::poro::{Face, Settings};
 
 /// Height of the column (m).
 pub(super) const HEIGHT: f64 = 1.0;
@@ -149,12 +146,10 @@ impl Problem<1> for Setup<Terzaghi> {
         let cells = (HEIGHT / self.h).round() as usize;
         let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
         let spacing = self.h / PER_CELL as f64;
-        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
+        let particles = self.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
         let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
-        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
         let (load, h) = (self.load, self.h);
         let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
         let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| [-load]);

@@ -4,12 +4,9 @@
 
 mod run;
 
-use super::family::{BASES, implicit, levels, pairs};
-use super::parameters as common;
-use crate::accuracy::fit_order;
+use crate::cases::prelude::*;
 use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
-use crate::parameter::{Parameter, number};
-use crate::prelude::*;
+use crate::parameter::number;
 
 /// Relative difference of a beam's frequency by how its sections shear.
 const SECTIONS: f64 = 2e-3;

@@ -4,9 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, other_transfers, pairs};
-use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
-use crate::prelude::*;
+use super::parameters::TimeStep;
+use crate::cases::prelude::*;
 use run::{PERIOD, Translation};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
@@ -30,7 +29,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION, "particles per cell across the motion";
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 

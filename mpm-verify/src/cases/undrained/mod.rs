@@ -6,10 +6,7 @@ mod run;
 
 use super::analysis::case_of;
 use super::checks::{finest, observed_order};
-use super::family::levels;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::collections::BTreeMap;
+use crate::cases::prelude::*;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
 

@@ -3,7 +3,7 @@
 use super::{Gate, is_beyond_unseen, is_sound};
 use crate::cases::manufactured::metrics::DISPLACEMENT_L2;
 use crate::cases::parameters::POISSON_RATIO;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// Largest error at a Poisson's ratio over that at 0.3 that counts as free of locking, and the least
 /// that counts as locked.
