@@ -67,6 +67,19 @@ pub struct FieldView {
     pub window: [(f64, f64); 2],
 }
 
+impl FieldView {
+    /// The particles at the end, by column and label of their values, range of these, and window.
+    pub(crate) fn at_end(names: [&'static str; 2], range: (f64, f64), window: [(f64, f64); 2]) -> Option<Self> {
+        let [value, label] = names;
+        Some(Self { time: None, value, label, range, window })
+    }
+
+    /// The same at a `time` (s).
+    pub(crate) fn at(time: f64, names: [&'static str; 2], range: (f64, f64), window: [(f64, f64); 2]) -> Option<Self> {
+        Self::at_end(names, range, window).map(|view| Self { time: Some(time), ..view })
+    }
+}
+
 /// Begins a run of a case.
 pub type Begin = Box<dyn Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync>;
 

@@ -26,7 +26,7 @@ pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursi
 pub(crate) use crate::scheme::SpaceName::{Equal, Ppp, TwoGrid};
 pub(crate) use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
 pub(crate) use crate::setup::{Run, Setup};
-pub(crate) use crate::sketch::{Shape, Sketch};
+pub(crate) use crate::sketch::Sketch;
 pub(crate) use crate::spec::{Level, RunSpec};
 pub(crate) use crate::statistics::{fit_line, rms};
 pub(crate) use crate::table::Table;

@@ -41,18 +41,8 @@ pub(super) fn case() -> Case {
         plan: plan(&case.levels),
         checks,
         sweeps: vec![
-            Sweep {
-                parameter: PPC_PER_DIRECTION,
-                label: "particles per direction",
-                abscissa: |n| n,
-                logarithmic: false,
-            },
-            Sweep {
-                parameter: CFL,
-                label: "CFL number",
-                abscissa: |c| c,
-                logarithmic: true,
-            },
+            Sweep::of(PPC_PER_DIRECTION, "particles per direction"),
+            Sweep::of(CFL, "CFL number").logarithmic(),
         ],
         begin: Box::new(begin::<Axes>),
         tables: tables(),

@@ -85,15 +85,11 @@ pub(super) fn case() -> Case {
             headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6),
         ],
         watched: &["displacement_error", "kinetic_energy"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
-                Shape::Load([0.4, 0.4], [0.7, 0.7]),
-                Shape::note([0.5, -0.1], "wall that doesn't hold"),
-                Shape::length([0.0, 1.1], [1.0, 1.1], "1 m"),
-            ],
-            description: "A cube that stretches, shears and falls away from the walls of its corner.",
-        },
+        sketch: Sketch::of("A cube that stretches, shears and falls away from the walls of its corner.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .load([0.4, 0.4], [0.7, 0.7])
+            .note([0.5, -0.1], "wall that doesn't hold")
+            .length([0.0, 1.1], [1.0, 1.1], "1 m"),
         cost: Box::new(|_| 0.01),
         begin: Box::new(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
             2 => crate::problem::begin::<2, Moving>(spec, values),

@@ -136,14 +136,15 @@ pub(super) fn case() -> Case {
             error(STRESS_ERROR, "relative error of σ_xx near the clamp"),
         ],
         watched: &["corner_uy", "newton_iterations"],
-        field: Some(FieldView {
-            time: None,
-            value: "stress_xx",
-            label: "σ_xx at 4 kN/m³ (Pa)",
-            range: (-4e4, 4e4),
-            window: [(-0.05, 1.05), (-0.65, 0.35)],
-        }),
-        sketch: sketch(),
+        field: FieldView::at_end(["stress_xx", "σ_xx at 4 kN/m³ (Pa)"], (-4e4, 4e4), [(-0.05, 1.05), (-0.65, 0.35)]),
+        sketch: Sketch::of("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.")
+            .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
+            .held([0.0, 0.0], [0.0, DEPTH])
+            .length([0.0, -0.1], [LENGTH, -0.1], "1 m")
+            .length([1.12, 0.0], [1.12, DEPTH], "0.3 m")
+            .note([0.5, 0.24], "4 kN/m³")
+            .probe([LENGTH, 0.0], "corner")
+            .loads((0..4).map(|k| 0.2 + 0.2 * f64::from(k)), [0.19, 0.07]),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-3)),
         pictures: figures::draw,
         tables: tables(),
@@ -216,22 +217,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft")),
         )
         .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]]),
-        Shape::Held([0.0, 0.0], [0.0, DEPTH]),
-        Shape::length([0.0, -0.1], [LENGTH, -0.1], "1 m"),
-        Shape::length([1.12, 0.0], [1.12, DEPTH], "0.3 m"),
-        Shape::note([0.5, 0.24], "4 kN/m³"),
-        Shape::Probe { at: [LENGTH, 0.0], label: "corner".to_owned() },
-    ];
-    for k in 0..4 {
-        let x = 0.2 + 0.2 * f64::from(k);
-        shapes.push(Shape::Load([x, 0.19], [x, 0.07]));
-    }
-    Sketch { shapes, description: "A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight." }
 }
 
 fn tables() -> Vec<ResultTable> {

@@ -106,19 +106,17 @@ fn plan() -> Vec<Family> {
 fn sketch() -> Sketch {
     let [a, b] = HALF_AXES.map(|a| 0.1 * a);
     let arc = (0..=24).map(|k| {
-        let angle = std::f64::consts::PI * f64::from(k) / 24.0;
+        let angle = PI * f64::from(k) / 24.0;
         [a * angle.cos(), b * angle.sin()]
     });
-    Sketch {
-        shapes: vec![
-            Shape::Body(arc.collect()),
-            Shape::Held([-a, 0.0], [a, 0.0]),
-            Shape::length([-a, -0.2], [a, -0.2], "20 h"),
-            Shape::length([a + 0.15, 0.0], [a + 0.15, b], "6 h"),
-            Shape::note([0.0, 0.25], "moved through 2 h"),
-        ],
-        description: "Half an ellipse of 20 by 6 cells, held and drained at its straight side, which is moved along a grid line.",
-    }
+    Sketch::of(
+        "Half an ellipse of 20 by 6 cells, held and drained at its straight side, which is moved along a grid line.",
+    )
+    .body(arc)
+    .held([-a, 0.0], [a, 0.0])
+    .length([-a, -0.2], [a, -0.2], "20 h")
+    .length([a + 0.15, 0.0], [a + 0.15, b], "6 h")
+    .note([0.0, 0.25], "moved through 2 h")
 }
 
 /// The bounds are derived in `docs/conditioning.md`.

@@ -105,7 +105,14 @@ pub(super) fn case() -> Case {
             error(SETTLEMENT_ERROR, "relative error of the settlement"),
         ],
         watched: &["base_pressure", "settlement"],
-        sketch: sketch(),
+        sketch: Sketch::of(
+            "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
+        )
+        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+        .held([0.0, 0.0], [0.3, 0.0])
+        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
+        .note([0.15, 1.2], "q, drained")
+        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-1)),
         pictures,
         tables: tables(),
@@ -145,23 +152,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, COARSE, two_grid, GHOSTS)
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
         .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
-        Shape::Held([0.0, 0.0], [0.3, 0.0]),
-        Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-        Shape::note([0.15, 1.2], "q, drained"),
-    ];
-    shapes.extend((0..3).map(|k| {
-        let x = 0.05 + 0.1 * f64::from(k);
-        Shape::Load([x, 1.13], [x, 1.02])
-    }));
-    Sketch {
-        shapes,
-        description: "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
-    }
 }
 
 fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {

@@ -136,20 +136,13 @@ pub(super) fn case() -> Case {
             error(MEAN_STRESS_RMS_ERROR, "rms error of σ_m (Pa)"),
             value(TIP_UX, "tip u_x (m)"),
         ],
-        sweeps: vec![Sweep {
-            parameter: POISSON_RATIO,
-            label: "0.5 − ν",
-            abscissa: |ratio| 0.5 - ratio,
-            logarithmic: true,
-        }],
+        sweeps: vec![Sweep::of(POISSON_RATIO, "0.5 − ν").over(|ratio| 0.5 - ratio).logarithmic()],
         watched: &["tip_uy", "log_jacobian_gap_rms"],
-        field: Some(FieldView {
-            time: None,
-            value: "mean_stress",
-            label: "mean normal stress at rest (Pa)",
-            range: (-1.0, 1.0),
-            window: [(0.0, 48.0), (0.0, 60.0)],
-        }),
+        field: FieldView::at_end(
+            ["mean_stress", "mean normal stress at rest (Pa)"],
+            (-1.0, 1.0),
+            [(0.0, 48.0), (0.0, 60.0)],
+        ),
         sketch: sketch(),
         cost: Box::new(cost),
         own_runs,
@@ -239,25 +232,19 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 }
 
 fn sketch() -> Sketch {
-    let probe = |at, label: &str| Shape::Probe { at, label: label.to_owned() };
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [LENGTH, LEFT_HEIGHT], TIP, [0.0, LEFT_HEIGHT]]),
-        Shape::Held([0.0, 0.0], [0.0, LEFT_HEIGHT]),
-        Shape::length([0.0, -6.0], [LENGTH, -6.0], "48 m"),
-        Shape::length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m"),
-        Shape::length([58.0, LEFT_HEIGHT], [58.0, TIP[1]], "16 m"),
-        Shape::note([52.0, 40.0], "1 N/m"),
-    ];
-    for k in 0..4 {
+    let membrane = Sketch::of("A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.")
+        .body([[0.0, 0.0], [LENGTH, LEFT_HEIGHT], TIP, [0.0, LEFT_HEIGHT]])
+        .held([0.0, 0.0], [0.0, LEFT_HEIGHT])
+        .length([0.0, -6.0], [LENGTH, -6.0], "48 m")
+        .length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m")
+        .length([58.0, LEFT_HEIGHT], [58.0, TIP[1]], "16 m")
+        .note([52.0, 40.0], "1 N/m");
+    let pulled = (0..4).fold(membrane, |sketch, k| {
         let y = LEFT_HEIGHT + 4.0 * f64::from(k);
-        shapes.push(Shape::Load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2]));
-    }
-    shapes.extend([probe(TIP, "tip"), probe(MID_EDGE, "mid-edge")]);
-    shapes.extend(MEAN_STRESSES.iter().map(|(_, x)| probe(*x, "σ_m")));
-    Sketch {
-        shapes,
-        description: "A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.",
-    }
+        sketch.load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2])
+    });
+    let probed = pulled.probe(TIP, "tip").probe(MID_EDGE, "mid-edge");
+    MEAN_STRESSES.iter().fold(probed, |sketch, (_, x)| sketch.probe(*x, "σ_m"))
 }
 
 fn tables() -> Vec<ResultTable> {

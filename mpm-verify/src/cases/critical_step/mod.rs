@@ -116,12 +116,13 @@ fn plan() -> Vec<Family> {
 }
 
 fn sketch() -> Sketch {
-    let dot = |x| Shape::Probe { at: [x, 0.5], label: String::new() };
-    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
-    shapes.extend([0.125, 0.375, 0.625, 0.875].map(dot));
-    shapes.push(Shape::note([0.5, 0.8], "noise"));
-    shapes.push(Shape::length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"));
-    Sketch { shapes, description: "A periodic lattice of particles, six cells in a period, at rest except for noise." }
+    let lattice = Sketch::of("A periodic lattice of particles, six cells in a period, at rest except for noise.")
+        .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    [0.125, 0.375, 0.625, 0.875]
+        .into_iter()
+        .fold(lattice, |sketch, x| sketch.probe([x, 0.5], ""))
+        .note([0.5, 0.8], "noise")
+        .length([0.0, -0.1], [1.0, -0.1], "6 h, periodic")
 }
 
 impl Setup<Step> {

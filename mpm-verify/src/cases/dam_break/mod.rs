@@ -122,8 +122,8 @@ const QUANTITIES: &[Studied] = &[
 ];
 
 const SWEEPS: &[Sweep] = &[
-    Sweep { parameter: CFL, label: "CFL number (–)", abscissa: |cfl| cfl, logarithmic: true },
-    Sweep { parameter: PIC_RATE, label: "PIC share per unit of time (1/s)", abscissa: |rate| rate, logarithmic: true },
+    Sweep::of(CFL, "CFL number (–)").logarithmic(),
+    Sweep::of(PIC_RATE, "PIC share per unit of time (1/s)").logarithmic(),
 ];
 
 pub(super) fn case() -> Case {
@@ -152,14 +152,17 @@ pub(super) fn case() -> Case {
         quantities: QUANTITIES.to_vec(),
         sweeps: SWEEPS.to_vec(),
         watched: &["front", "energy", "front_force", "pressure_rms"],
-        field: Some(FieldView {
-            time: Some(0.3),
-            value: "pressure",
-            label: "pressure after 0.3 s (Pa)",
-            range: (-1e5, 1e5),
-            window: [(0.0, 5.0), (0.0, 2.0)],
-        }),
-        sketch: sketch(),
+        field: FieldView::at(0.3, ["pressure", "pressure after 0.3 s (Pa)"], (-1e5, 1e5), [(0.0, 5.0), (0.0, 2.0)]),
+        sketch: Sketch::of("Water four metres long and two metres deep stands between the left wall of a tank and a gate; the tank is six metres long, open above, its floor and walls smooth. The gate is removed at once.")
+            .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
+            .held([TANK, 0.0], [0.0, 0.0])
+            .held([0.0, 0.0], [0.0, 3.0])
+            .held([TANK, 3.0], [TANK, 0.0])
+            .length([0.0, -0.5], [LENGTH, -0.5], "4 m")
+            .length([0.0, -1.0], [TANK, -1.0], "6 m")
+            .length([-0.5, 0.0], [-0.5, DEPTH], "2 m")
+            .note([0.5 * LENGTH, 0.5 * DEPTH], "water")
+            .note([LENGTH + 0.4, DEPTH + 0.2], "gate"),
         cost: Box::new(cost),
         ladder: &[LADDER],
         pictures: figures::draw,
@@ -214,24 +217,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "h0.25", &ours, studies)
         .runs(Long, "h0.0625", &others, LADDER)
         .done()
-}
-
-fn sketch() -> Sketch {
-    let shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]]),
-        Shape::Held([TANK, 0.0], [0.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 3.0]),
-        Shape::Held([TANK, 3.0], [TANK, 0.0]),
-        Shape::length([0.0, -0.5], [LENGTH, -0.5], "4 m"),
-        Shape::length([0.0, -1.0], [TANK, -1.0], "6 m"),
-        Shape::length([-0.5, 0.0], [-0.5, DEPTH], "2 m"),
-        Shape::note([0.5 * LENGTH, 0.5 * DEPTH], "water"),
-        Shape::note([LENGTH + 0.4, DEPTH + 0.2], "gate"),
-    ];
-    Sketch {
-        shapes,
-        description: "Water four metres long and two metres deep stands between the left wall of a tank and a gate; the tank is six metres long, open above, its floor and walls smooth. The gate is removed at once.",
-    }
 }
 
 const CHANGED: Label = ("changed", |r| r.set.join(", ").replace('_', " "));

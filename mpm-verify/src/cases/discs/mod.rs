@@ -197,25 +197,19 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let circle = |[x, y]: [f64; 2]| {
-        let at = |k: u32| {
-            let angle = f64::from(k) / 48.0 * std::f64::consts::TAU;
+        (0..48).map(move |k| {
+            let angle = f64::from(k) / 48.0 * TAU;
             [x + RADIUS * angle.cos(), y + RADIUS * angle.sin()]
-        };
-        Shape::Body((0..48).map(at).collect())
+        })
     };
-    let arrow = |[x, y]: [f64; 2], s: f64| Shape::Load([x, y], [x + s, y + s]);
     let [a, b] = CENTRES;
-    Sketch {
-        shapes: vec![
-            circle(a),
-            circle(b),
-            arrow(a, 0.12),
-            arrow(b, -0.12),
-            Shape::note([0.62, 0.2], "0.005 m/s"),
-            Shape::length([0.0, -0.08], [2.0 * RADIUS, -0.08], "0.4 m"),
-        ],
-        description: "Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.",
-    }
+    Sketch::of("Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.")
+        .body(circle(a))
+        .body(circle(b))
+        .load(a, a.map(|x| x + 0.12))
+        .load(b, b.map(|x| x - 0.12))
+        .note([0.62, 0.2], "0.005 m/s")
+        .length([0.0, -0.08], [2.0 * RADIUS, -0.08], "0.4 m")
 }
 
 impl Run<'_, Discs> {

@@ -107,15 +107,11 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let (side, up) = (0.5, 0.25);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, up], [side, up], [side, up + side], [0.0, up + side]]),
-            Shape::Load([0.25, up + 0.3], [0.45, up + 0.1]),
-            Shape::Held([-0.2, 0.0], [1.0, 0.0]),
-            Shape::length([0.0, up + side + 0.08], [side, up + side + 0.08], "0.5 m"),
-        ],
-        description: "A block of 0.5 m that moves towards a floor at an angle.",
-    }
+    Sketch::of("A block of 0.5 m that moves towards a floor at an angle.")
+        .body([[0.0, up], [side, up], [side, up + side], [0.0, up + side]])
+        .load([0.25, up + 0.3], [0.45, up + 0.1])
+        .held([-0.2, 0.0], [1.0, 0.0])
+        .length([0.0, up + side + 0.08], [side, up + side + 0.08], "0.5 m")
 }
 
 fn checks() -> Vec<Check> {

@@ -149,20 +149,9 @@ pub(super) fn case() -> Case {
             headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
         ],
         quantities: vec![error(PRANDTL_ERROR, "relative error of the contact pressure")],
-        sweeps: vec![Sweep {
-            parameter: PENETRATION_RATE,
-            label: "penetration rate (m/s)",
-            abscissa: |rate| rate,
-            logarithmic: true,
-        }],
+        sweeps: vec![Sweep::of(PENETRATION_RATE, "penetration rate (m/s)").logarithmic()],
         watched: &["pressure_over_strength", "jacobian_max"],
-        field: Some(FieldView {
-            time: None,
-            value: "plastic_strain",
-            label: "plastic strain (-)",
-            range: (0.0, 0.004),
-            window: [(0.0, 2.0), (-1.5, 0.0)],
-        }),
+        field: FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.004), [(0.0, 2.0), (-1.5, 0.0)]),
         sketch: sketch(),
         cost: Box::new(cost),
         own_runs,
@@ -242,23 +231,17 @@ fn cost(spec: &RunSpec) -> f64 {
 }
 
 fn sketch() -> Sketch {
-    let extent = 6.0 * WIDTH;
-    let half = 0.5 * WIDTH;
-    let shapes = vec![
-        Shape::Body(vec![[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]]),
-        Shape::Body(vec![[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]]),
-        Shape::Held([extent, -extent], [0.0, -extent]),
-        Shape::Load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3]),
-        Shape::length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B"),
-        Shape::length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B"),
-        Shape::note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m"),
-        Shape::note([-0.6, -0.5 * extent], "symmetry"),
-        Shape::note([extent - 0.6, -0.5 * extent], "roller"),
-    ];
-    Sketch {
-        shapes,
-        description: "A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.",
-    }
+    let (extent, half) = (6.0 * WIDTH, 0.5 * WIDTH);
+    Sketch::of("A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.")
+        .body([[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]])
+        .body([[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]])
+        .held([extent, -extent], [0.0, -extent])
+        .load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3])
+        .length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B")
+        .length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B")
+        .note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m")
+        .note([-0.6, -0.5 * extent], "symmetry")
+        .note([extent - 0.6, -0.5 * extent], "roller")
 }
 
 const OF_WIDTH: Label = ("h", |r| r.level.replace('b', "B/"));

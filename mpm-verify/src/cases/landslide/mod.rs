@@ -163,13 +163,8 @@ fn case_of(
         ],
         quantities: vec![value(RUNOUT_2_5S, "run-out at 2.5 s (m)")],
         sweeps: vec![
-            Sweep {
-                parameter: REDUCTION,
-                label: "reduction of the peak strength (–)",
-                abscissa: |reduction| reduction,
-                logarithmic: false,
-            },
-            Sweep { parameter: slope::CFL, label: "CFL number (–)", abscissa: |cfl| cfl, logarithmic: true },
+            Sweep::of(REDUCTION, "reduction of the peak strength (–)"),
+            Sweep::of(slope::CFL, "CFL number (–)").logarithmic(),
         ],
         watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
         sketch: slope::sketch(size),
@@ -195,13 +190,12 @@ pub(super) fn plane_case() -> Case {
     Case {
         levels: LEVELS_2D.to_vec(),
         plan: plan_2d(),
-        field: Some(FieldView {
-            time: Some(1.0),
-            value: "plastic_strain",
-            label: "plastic strain after 1 s (-)",
-            range: (0.0, 0.004),
-            window: [(0.0, 16.0), (0.0, 5.0)],
-        }),
+        field: FieldView::at(
+            1.0,
+            ["plastic_strain", "plastic strain after 1 s (-)"],
+            (0.0, 0.004),
+            [(0.0, 16.0), (0.0, 5.0)],
+        ),
         tables: tables::in_plane(),
         ..case_of(TEXTS, 2, parameters, begin)
     }

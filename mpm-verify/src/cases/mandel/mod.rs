@@ -87,7 +87,14 @@ pub(super) fn case() -> Case {
             error(CENTRE_PRESSURE_ERROR, "error of p in the middle"),
         ],
         watched: &["centre_pressure", "settlement"],
-        sketch: sketch(),
+        sketch: Sketch::of("A quarter of a slab between rigid plates, drained at its side.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]])
+            .held([0.0, 0.0], [1.0, 0.0])
+            .held([0.0, 0.0], [0.0, 0.25])
+            .length([0.0, -0.12], [1.0, -0.12], "a = 1 m")
+            .note([1.12, 0.12], "drained")
+            .note([0.5, 0.5], "plate, F")
+            .loads((0..5).map(|k| 0.1 + 0.2 * f64::from(k)), [0.42, 0.27]),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
         pictures,
         tables: tables(),
@@ -114,22 +121,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Pr, "n8", &linear, RATIOS)
         .each(Nightly, "n16", &both, RATIOS)
         .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]]),
-        Shape::Held([0.0, 0.0], [1.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 0.25]),
-        Shape::length([0.0, -0.12], [1.0, -0.12], "a = 1 m"),
-        Shape::note([1.12, 0.12], "drained"),
-        Shape::note([0.5, 0.5], "plate, F"),
-    ];
-    shapes.extend((0..5).map(|k| {
-        let x = 0.1 + 0.2 * f64::from(k);
-        Shape::Load([x, 0.42], [x, 0.27])
-    }));
-    Sketch { shapes, description: "A quarter of a slab between rigid plates, drained at its side." }
 }
 
 /// The bounds are derived in `docs/mandel.md`.

@@ -106,7 +106,14 @@ pub(super) fn case() -> Case {
             error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0),
         ],
         watched: &["displacement_l2", "pressure_l2"],
-        sketch: sketch(),
+        sketch: Sketch::of("A body full of water that slides along its sides but doesn't leave them, drained at its top.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .held([1.0, 0.0], [0.0, 0.0])
+            .held([0.0, 0.0], [0.0, 1.0])
+            .held([0.0, 1.0], [1.0, 1.0])
+            .held([1.0, 1.0], [1.0, 0.0])
+            .length([0.0, -0.15], [1.0, -0.15], "1 m")
+            .note([0.5, 1.12], "p = 0"),
         cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
         begin: Box::new(|spec, parameters| match Motion::read(parameters)?.dimension {
             1 => crate::problem::begin::<1, Moving>(spec, parameters),
@@ -139,21 +146,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Pr, "n16", &gimp[1..2], TIMES)
         .each(Nightly, "n32", &gimp, TIMES)
         .done()
-}
-
-fn sketch() -> Sketch {
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
-            Shape::Held([1.0, 0.0], [0.0, 0.0]),
-            Shape::Held([0.0, 0.0], [0.0, 1.0]),
-            Shape::Held([0.0, 1.0], [1.0, 1.0]),
-            Shape::Held([1.0, 1.0], [1.0, 0.0]),
-            Shape::length([0.0, -0.15], [1.0, -0.15], "1 m"),
-            Shape::note([0.5, 1.12], "p = 0"),
-        ],
-        description: "A body full of water that slides along its sides but doesn't leave them, drained at its top.",
-    }
 }
 
 fn tables() -> Vec<ResultTable> {

@@ -126,20 +126,15 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 }
 
 fn sketch() -> Sketch {
-    let column = |x: f64| Shape::Body(vec![[x, 0.0], [x + 0.25, 0.0], [x + 0.25, 1.0], [x, 1.0]]);
-    let weight = |x: f64| Shape::Load([x + 0.125, 0.6], [x + 0.125, 0.35]);
-    Sketch {
-        shapes: vec![
-            column(0.0),
-            weight(0.0),
-            Shape::Held([0.0, 1.0], [0.25, 1.0]),
-            column(0.6),
-            weight(0.6),
-            Shape::Held([0.5, -0.03], [0.95, -0.03]),
-            Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-        ],
-        description: "A column of 1 m that hangs under its weight, and one that stands on a floor; rollers at the sides.",
-    }
+    let column = |x: f64| [[x, 0.0], [x + 0.25, 0.0], [x + 0.25, 1.0], [x, 1.0]];
+    Sketch::of("A column of 1 m that hangs under its weight, and one that stands on a floor; rollers at the sides.")
+        .body(column(0.0))
+        .load([0.125, 0.6], [0.125, 0.35])
+        .held([0.0, 1.0], [0.25, 1.0])
+        .body(column(0.6))
+        .load([0.6 + 0.125, 0.6], [0.6 + 0.125, 0.35])
+        .held([0.5, -0.03], [0.95, -0.03])
+        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
 }
 
 impl Run<'_, Newton> {

@@ -87,15 +87,11 @@ pub(super) fn case() -> Case {
             headline(PREDICTED_WIDTH, "predicted (m)", 1.0, 4),
         ],
         watched: &["front", "kinetic_energy"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Held([0.0, -0.1], [0.0, 0.2]),
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.0, 0.1]]),
-                Shape::Load([0.75, 0.05], [0.45, 0.05]),
-                Shape::length([0.0, -0.08], [1.0, -0.08], "1 m"),
-            ],
-            description: "A bar of 1 m whose end touches a wall and which moves towards it.",
-        },
+        sketch: Sketch::of("A bar of 1 m whose end touches a wall and which moves towards it.")
+            .held([0.0, -0.1], [0.0, 0.2])
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.0, 0.1]])
+            .load([0.75, 0.05], [0.45, 0.05])
+            .length([0.0, -0.08], [1.0, -0.08], "1 m"),
         tables: tables(),
         breaks_down: |r| {
             let smeared = r.basis() == Linear && r.remedy() == FbarRecursive;

@@ -61,7 +61,15 @@ pub(super) fn case() -> Case {
             headline(BROKEN, "break down (%)", 100.0, 0),
         ],
         watched: &["displacement_error"],
-        sketch: sketch(),
+        sketch: Sketch::of("A square of 1 m between slippery walls, whose middle turns.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .held([0.0, 0.0], [1.0, 0.0])
+            .held([1.0, 0.0], [1.0, 1.0])
+            .held([1.0, 1.0], [0.0, 1.0])
+            .held([0.0, 1.0], [0.0, 0.0])
+            .load([0.75, 0.4], [0.75, 0.6])
+            .load([0.25, 0.6], [0.25, 0.4])
+            .length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
         tables: tables(),
         ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
@@ -103,22 +111,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n16 n32", &splines, &better)
         .each(Nightly, "n16 n32", &splines, &sixteen)
         .done()
-}
-
-fn sketch() -> Sketch {
-    let sides = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
-    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
-    let mut last = [0.0, 0.0];
-    for next in sides {
-        shapes.push(Shape::Held(last, next));
-        last = next;
-    }
-    shapes.extend([
-        Shape::Load([0.75, 0.4], [0.75, 0.6]),
-        Shape::Load([0.25, 0.6], [0.25, 0.4]),
-        Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-    ]);
-    Sketch { shapes, description: "A square of 1 m between slippery walls, whose middle turns." }
 }
 
 fn tables() -> Vec<ResultTable> {

@@ -135,19 +135,15 @@ fn plan() -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let rim = (0..48).map(|k| {
-        let (sin, cos) = (f64::from(k) / 48.0 * std::f64::consts::TAU).sin_cos();
+        let (sin, cos) = (f64::from(k) / 48.0 * TAU).sin_cos();
         [RADIUS * cos, RADIUS * sin]
     });
-    Sketch {
-        shapes: vec![
-            Shape::Body(rim.collect()),
-            Shape::Load([RADIUS, 0.0], [RADIUS, 0.5]),
-            Shape::Load([-RADIUS, 0.0], [-RADIUS, -0.5]),
-            Shape::note([0.0, 0.0], "0.1 c at the rim"),
-            Shape::length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m"),
-        ],
-        description: "A disc of 2 m in diameter that turns about its centre and touches nothing.",
-    }
+    Sketch::of("A disc of 2 m in diameter that turns about its centre and touches nothing.")
+        .body(rim)
+        .load([RADIUS, 0.0], [RADIUS, 0.5])
+        .load([-RADIUS, 0.0], [-RADIUS, -0.5])
+        .note([0.0, 0.0], "0.1 c at the rim")
+        .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m")
 }
 
 impl Setup<Disc> {

@@ -123,19 +123,15 @@ fn plan() -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let high = 0.12;
-    let body = |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
-    Sketch {
-        shapes: vec![
-            body(0.0, 1.0),
-            body(-0.5, 0.0),
-            body(1.0, 1.5),
-            Shape::Load([1.0 + 0.1, 0.5 * high], [1.0 + 0.4, 0.5 * high]),
-            Shape::Load([-0.1, 0.5 * high], [-0.4, 0.5 * high]),
-            Shape::note([0.5, 0.5 * high], "free"),
-            Shape::length([0.0, -0.08], [1.0, -0.08], "8 h"),
-        ],
-        description: "A body that is longer than eight cells; beside these its nodes move as all would.",
-    }
+    let part = |from: f64, to: f64| [[from, 0.0], [to, 0.0], [to, high], [from, high]];
+    Sketch::of("A body that is longer than eight cells; beside these its nodes move as all would.")
+        .body(part(0.0, 1.0))
+        .body(part(-0.5, 0.0))
+        .body(part(1.0, 1.5))
+        .load([1.0 + 0.1, 0.5 * high], [1.0 + 0.4, 0.5 * high])
+        .load([-0.1, 0.5 * high], [-0.4, 0.5 * high])
+        .note([0.5, 0.5 * high], "free")
+        .length([0.0, -0.08], [1.0, -0.08], "8 h")
 }
 
 impl Run<'_, Stretch> {

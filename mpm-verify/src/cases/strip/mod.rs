@@ -147,7 +147,14 @@ pub(super) fn case() -> Case {
         ],
         quantities: vec![value(SETTLEMENT, "settlement")],
         watched: &["load", "settlement"],
-        sketch: sketch(),
+        sketch: Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
+            .body([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]])
+            .held([0.0, 0.0], [5.0, 0.0])
+            .held([0.0, 0.0], [0.0, 5.0])
+            .length([0.0, -0.5], [5.0, -0.5], "5 B")
+            .note([3.2, 5.3], "drained")
+            .note([0.5, 6.0], "q")
+            .loads((0..4).map(|k| 0.125 + 0.25 * f64::from(k)), [5.7, 5.05]),
         cost: Box::new(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE) {
             true => 0.1 * spec.level.h.powi(-6),
             false => 1e-3 * spec.level.h.powi(-3),
@@ -200,22 +207,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b4", two_grid, "ghost_displacement=0.01")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=1")
         .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]]),
-        Shape::Held([0.0, 0.0], [5.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 5.0]),
-        Shape::length([0.0, -0.5], [5.0, -0.5], "5 B"),
-        Shape::note([3.2, 5.3], "drained"),
-        Shape::note([0.5, 6.0], "q"),
-    ];
-    shapes.extend((0..4).map(|k| {
-        let x = 0.125 + 0.25 * f64::from(k);
-        Shape::Load([x, 5.7], [x, 5.05])
-    }));
-    Sketch { shapes, description: "Half of a flexible strip on a square of soil whose surface is drained." }
 }
 
 fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {

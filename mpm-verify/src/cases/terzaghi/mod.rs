@@ -79,27 +79,16 @@ pub(super) fn case() -> Case {
         ],
         quantities: vec![error(PRESSURE_L2_STEPS, "rms error of p/q in space"), error(PRESSURE_L2, "rms error of p/q")],
         watched: &["base_pressure", "settlement"],
-        sketch: sketch(),
+        sketch: Sketch::of("A column of 1 m on an impermeable floor, under a load q on its drained top.")
+            .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+            .held([0.0, 0.0], [0.3, 0.0])
+            .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
+            .note([0.15, 1.2], "q, drained")
+            .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-2)),
         pictures,
         tables: tables(),
         ..Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL)
-    }
-}
-
-fn sketch() -> Sketch {
-    let load = |x| Shape::Load([x, 1.13], [x, 1.02]);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
-            Shape::Held([0.0, 0.0], [0.3, 0.0]),
-            Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-            Shape::note([0.15, 1.2], "q, drained"),
-            load(0.05),
-            load(0.05 + 0.1),
-            load(0.05 + 0.1 * 2.0),
-        ],
-        description: "A column of 1 m on an impermeable floor, under a load q on its drained top.",
     }
 }
 

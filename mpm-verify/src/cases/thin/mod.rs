@@ -120,17 +120,13 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let (end, top) = (HALF, DEPTH);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [end, 0.0], [end, top], [0.0, top]]),
-            Shape::Held([0.0, 0.0], [0.0, top]),
-            Shape::Load([0.1, 0.25], [0.1, 0.15]),
-            Shape::Load([0.95, 0.15], [0.95, 0.25]),
-            Shape::length([0.0, -0.08], [end, -0.08], "1 m, half of it"),
-            Shape::length([1.1, 0.0], [1.1, top], "0.1 m"),
-        ],
-        description: "Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.",
-    }
+    Sketch::of("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.")
+        .body([[0.0, 0.0], [end, 0.0], [end, top], [0.0, top]])
+        .held([0.0, 0.0], [0.0, top])
+        .load([0.1, 0.25], [0.1, 0.15])
+        .load([0.95, 0.15], [0.95, 0.25])
+        .length([0.0, -0.08], [end, -0.08], "1 m, half of it")
+        .length([1.1, 0.0], [1.1, top], "0.1 m")
 }
 
 type Beam<'a> = Run<'a, Thin>;

@@ -80,15 +80,11 @@ pub(super) fn case() -> Case {
             headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
         ],
         watched: &["stress_kept", "stress_noise"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]]),
-                Shape::Load([0.35, 0.25], [0.65, 0.25]),
-                Shape::note([0.5, 0.38], "0.05 c"),
-                Shape::length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"),
-            ],
-            description: "A body that fills a periodic grid of 8 by 4 cells and moves along it.",
-        },
+        sketch: Sketch::of("A body that fills a periodic grid of 8 by 4 cells and moves along it.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]])
+            .load([0.35, 0.25], [0.65, 0.25])
+            .note([0.5, 0.38], "0.05 c")
+            .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"),
         cost: Box::new(|_| 0.2),
         tables: tables(),
         ..Case::of::<2, Translation>("translate", "A stress that crosses a hundred cells", ALL)

@@ -117,25 +117,20 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 
 fn sketch() -> Sketch {
     let arc = (0..=24).map(|k| {
-        let angle = std::f64::consts::PI * f64::from(k) / 24.0;
+        let angle = PI * f64::from(k) / 24.0;
         [1.763 + 0.437 * angle.cos(), 0.611 * angle.sin()]
     });
-    let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    Sketch {
-        shapes: vec![
-            Shape::Body(square),
-            Shape::Body(arc.collect()),
-            Shape::Held([0.0, 0.0], [1.0, 0.0]),
-            Shape::Held([1.0, 0.0], [1.0, 1.0]),
-            Shape::Held([1.0, 1.0], [0.0, 1.0]),
-            Shape::Held([0.0, 1.0], [0.0, 0.0]),
-            Shape::Held([1.326, 0.0], [2.2, 0.0]),
-            Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-            Shape::note([0.5, 0.5], "square"),
-            Shape::note([1.763, 0.25], "ellipse"),
-        ],
-        description: "A square of 1 m that is held all around, and half an ellipse that is held at its straight side.",
-    }
+    Sketch::of("A square of 1 m that is held all around, and half an ellipse that is held at its straight side.")
+        .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .body(arc)
+        .held([0.0, 0.0], [1.0, 0.0])
+        .held([1.0, 0.0], [1.0, 1.0])
+        .held([1.0, 1.0], [0.0, 1.0])
+        .held([0.0, 1.0], [0.0, 0.0])
+        .held([1.326, 0.0], [2.2, 0.0])
+        .length([-0.12, 0.0], [-0.12, 1.0], "1 m")
+        .note([0.5, 0.5], "square")
+        .note([1.763, 0.25], "ellipse")
 }
 
 /// The bounds are derived in `docs/undrained.md`.

@@ -13,8 +13,7 @@ const LOCKED: f64 = 1.5;
 const COMPRESSIBLE: f64 = 0.3;
 
 /// Errors over the distance from incompressibility.
-pub(in crate::cases) const LOCKING_CURVE: Sweep =
-    Sweep { parameter: POISSON_RATIO, label: "0.5 − ν", abscissa: |nu| 0.5 - nu, logarithmic: true };
+pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep::of(POISSON_RATIO, "0.5 − ν").over(|nu| 0.5 - nu).logarithmic();
 
 /// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {
