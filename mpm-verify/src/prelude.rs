@@ -6,7 +6,7 @@ pub(crate) use crate::case::{Begin, Case, Family, FieldView, Plan};
 pub(crate) use crate::check::{Check, Finding};
 pub(crate) use crate::demand::{CheckOf, Demand, Over, Quantity, SLACK, same_but_scheme};
 pub(crate) use crate::draw::style::{history, series};
-pub(crate) use crate::draw::{Chart, Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields};
+pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields};
 pub(crate) use crate::error::Error;
 pub(crate) use crate::exact::{Exact, Material};
 pub(crate) use crate::figure::{Figure, Panel, sampled};

@@ -21,6 +21,12 @@ pub(super) fn levels<const N: usize>(side: f64, names: [(&'static str, f64); N])
     names.into_iter().map(level).collect()
 }
 
+/// Cost of a step with the remedy of a run, of those in the order of [`REMEDIES`].
+pub(super) fn remedy_cost(spec: &RunSpec, costs: [f64; 5]) -> f64 {
+    let of = REMEDIES.into_iter().zip(costs).find(|(remedy, _)| *remedy == spec.scheme.remedy());
+    of.map_or(1.0, |(_, cost)| cost)
+}
+
 /// Runs of `schemes` at `levels` with the parameters `set`, from the tier `tier` on.
 pub(super) fn family(tier: Tier, levels: &[Level], schemes: &[Scheme], set: &'static [&'static str]) -> Family {
     Family {

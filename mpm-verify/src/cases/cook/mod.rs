@@ -144,22 +144,12 @@ pub(super) fn case() -> Case {
             [(0.0, 48.0), (0.0, 60.0)],
         ),
         sketch: sketch(),
-        cost: Box::new(cost),
+        cost: Box::new(|spec| remedy_cost(spec, [1.0, 2.5, 1.5, 1.5, 3.0]) / spec.level.h.powi(3)),
         own_runs,
         pictures: figures::draw,
         tables: tables(),
         ..Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
     }
-}
-
-fn cost(spec: &RunSpec) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        FbarRecursive => 2.5,
-        FbarTotal | FbarRate => 1.5,
-        FbarConsistent => 3.0,
-    };
-    sweep / spec.level.h.powi(3)
 }
 
 /// One record for each scheme and level at the case's own parameters. A state of rest hardly depends on the time step:

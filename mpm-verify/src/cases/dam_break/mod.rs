@@ -163,22 +163,13 @@ pub(super) fn case() -> Case {
             .length([-0.5, 0.0], [-0.5, DEPTH], "2 m")
             .note([0.5 * LENGTH, 0.5 * DEPTH], "water")
             .note([LENGTH + 0.4, DEPTH + 0.2], "gate"),
-        cost: Box::new(cost),
+        cost: Box::new(|spec| remedy_cost(spec, [1.0, 1.4, 1.4, 1.4, 1.9]) / spec.level.h.powi(3)),
         ladder: &[LADDER],
         pictures: figures::draw,
         tables: tables(),
         breaks_down: checks::breaks_down,
         ..Case::of::<2, run::Dam>("dam-break", "Dam break", ALL)
     }
-}
-
-fn cost(spec: &RunSpec) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        FbarRecursive | FbarTotal | FbarRate => 1.4,
-        FbarConsistent => 1.9,
-    };
-    sweep / spec.level.h.powi(3)
 }
 
 fn plan(levels: &[Level]) -> Vec<Family> {

@@ -220,11 +220,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,
-        RemedyName::FbarConsistent => 2.5,
-    };
+    let sweep = remedy_cost(spec, [1.0, 1.5, 1.5, 1.5, 2.5]);
     let dense = spec.set.iter().any(|s| s == "ppc_per_direction=4");
     let solver = if spec.scheme.rule().is_some() { 0.15 } else { 1.0 };
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)

@@ -121,11 +121,7 @@ fn references() -> Vec<String> {
 }
 
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.2,
-        RemedyName::FbarConsistent => 1.7,
-    };
+    let sweep = remedy_cost(spec, [1.0, 1.2, 1.2, 1.2, 1.7]);
     let short = spec.set.iter().any(|set| set.starts_with("duration="));
     let across = if spec.level.name.starts_with("slice") { 0.3 } else { 1.0 };
     across * sweep / spec.level.h.powi(dimension + 1) / if short { 3.0 } else { 1.0 }

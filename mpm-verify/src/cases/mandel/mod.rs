@@ -5,7 +5,7 @@
 
 mod run;
 
-use super::poro::{ROUNDING, spaces};
+use super::poro::{self, ROUNDING, spaces};
 use crate::cases::prelude::*;
 use run::{END, HEIGHT, WIDTH};
 
@@ -18,12 +18,12 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed slab";
-        conductivity: f64 = real("m/s", "1e-5", 1e-12, 1.0), "hydraulic conductivity k, of water of 9810 N/m³";
+        conductivity: f64 = poro::CONDUCTIVITY;
         load: f64 = real("N/m", "10", 1e-3, 1e6),
             "force F on half a plate: small, so that what is finite of the strain, F/(G a), is below all errors";
         steps: i32 = whole("-", "240", 30, 100_000), "equal steps to T = 0.3";
-        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        projection: f64 = poro::PROJECTION;
+        tolerance: f64 = poro::TOLERANCE;
     }
 }
 

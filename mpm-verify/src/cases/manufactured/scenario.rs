@@ -197,16 +197,9 @@ pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
         let particles: f64 = (0..solution.dimension()).map(along).product();
         Some(particles * steps)
     };
-    let remedy = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        FbarConsistent => 3.0,
-        _ => 1.5,
-    };
-    let remedy = match spec.scheme {
-        Scheme::Explicit(_) => remedy,
-        Scheme::Implicit(_) | Scheme::Poro(_) => remedy * NEWTON,
-    };
-    particle_steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
+    let remedy = remedy_cost(spec, [1.0, 1.5, 1.5, 1.5, 3.0]);
+    let solver = if matches!(spec.scheme, Scheme::Explicit(_)) { 1.0 } else { NEWTON };
+    particle_steps().unwrap_or(0.0) * (remedy * solver) / STEPS_PER_COST
 }
 
 /// The solver of a scene, of steps `dt` (s).

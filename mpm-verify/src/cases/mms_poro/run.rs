@@ -1,7 +1,7 @@
 //! Derived quantities, scene and observations of the motion, beside the exact one.
 
 use super::*;
-use crate::cases::poro::{WATER_WEIGHT, matrix_entries};
+use crate::cases::poro::matrix_entries;
 use crate::exact::poro::{Moment, SolidAndWater};
 use mpm_core::poro::{Gravity, Predictor, Settings, Tangent};
 use mpm_core::stage::BodyForce;
@@ -12,21 +12,6 @@ use std::array::from_fn;
 const DENSITIES: [f64; 2] = [1000.0, 2600.0];
 
 impl Setup<Motion> {
-    /// Shear modulus G (Pa) of undeformed material.
-    fn shear(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa) of undeformed material.
-    pub(super) fn modulus(&self) -> f64 {
-        2.0 * self.shear() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
-    }
-
-    /// κ (m²/(Pa s)) of undeformed material.
-    pub(super) fn kappa(&self) -> f64 {
-        self.conductivity / WATER_WEIGHT
-    }
-
     /// Duration of a step (s).
     fn step(&self) -> f64 {
         self.duration / f64::from(self.steps)
@@ -49,14 +34,14 @@ impl Setup<Motion> {
             Law::Constant => Conductivity::Constant(kappa),
             Law::KozenyCarman => Conductivity::KozenyCarman(kappa * (1.0 - porosity).powi(2) / porosity.powi(3)),
         };
-        Ok((ImprovedHencky::new(self.bulk_parameter(), self.shear(), porosity)?, conductivity))
+        Ok((ImprovedHencky::new(self.bulk_parameter(), self.shear_modulus(), porosity)?, conductivity))
     }
 
     /// The exact motion, with a law and a conductivity of its own.
     fn solution(&self) -> SolidAndWater {
         SolidAndWater {
             dimension: self.dimension as usize,
-            moduli: [self.bulk_parameter(), self.shear()],
+            moduli: [self.bulk_parameter(), self.shear_modulus()],
             porosity: self.porosity,
             kappa: self.kappa(),
             kozeny_carman: self.conductivity_law == Law::KozenyCarman,
@@ -158,7 +143,7 @@ where
             .drained(move |x| x[D - 1] > 1.0 - 0.25 * h)
             .source(move |x, span| exact.inflow(place(x), span, whole));
         let settings = Settings {
-            pressure_space: m.pressure_space(m.projection / (2.0 * m.shear())),
+            pressure_space: m.pressure_space(m.projection / (2.0 * m.shear_modulus())),
             tangent: Tangent::Consistent,
             predictor: match m.predictor {
                 Start::Zero => Predictor::Zero,

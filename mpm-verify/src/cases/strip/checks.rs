@@ -118,7 +118,7 @@ fn beside(r: &Record) -> Option<f64> {
     let s = Setup::<Strip>::of_record(r).ok()?;
     let known = s.reference()?;
     let uncertain = known.settlement_uncertainty / known.settlement;
-    Some(uncertain + FINITE * s.load / s.shear())
+    Some(uncertain + FINITE * s.load / s.shear_modulus())
 }
 
 /// A value of the finest three of some runs.

@@ -4,7 +4,7 @@
 
 mod run;
 
-use super::poro::spaces;
+use super::poro::{self, spaces};
 use crate::cases::prelude::*;
 use crate::exact::terzaghi as exact;
 use run::{FINITE, HEIGHT};
@@ -19,7 +19,7 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed column";
-        conductivity: f64 = real("m/s", "1e-5", 1e-12, 1.0), "hydraulic conductivity k, of water of 9810 N/m³";
+        conductivity: f64 = poro::CONDUCTIVITY;
         load: f64 = real("Pa", "10", 1e-3, 1e6),
             "load q: small, so that what is finite of its strain, q/M, is below all errors";
         steps: i32 = whole("-", "40", 1, 10_000), "steps";
@@ -27,8 +27,8 @@ parameters! {
             "time at the end over H²/c_v; of a single step with a first_step, that";
         first_step: f64 = real("-", "0", 0.0, 1e4),
             "c_v Δt/h² of the first step, with h the cells of the displacement; the others grow by a factor. 0: all equal";
-        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-2), "residual of a converged step over what it balances";
+        projection: f64 = poro::PROJECTION;
+        tolerance: f64 = poro::TOLERANCE;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{ROUNDING, base_pressure, mass_error, matrix_entries, outflow};
 use crate::exact::terzaghi::FirstStep;
 use mpm_core::poro::{Face, Settings};
 
@@ -18,37 +18,14 @@ const SMALL: f64 = 1e-6;
 pub(super) const FINITE: f64 = 10.0 * SMALL;
 
 impl Setup<Terzaghi> {
-    /// Shear modulus G (Pa).
-    fn shear_modulus(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa).
-    fn modulus(&self) -> f64 {
-        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
-    }
-
-    /// κ (m²/(Pa s)).
-    fn kappa(&self) -> f64 {
-        self.conductivity / WATER_WEIGHT
-    }
-
     /// H²/c_v (s).
     fn time_scale(&self) -> f64 {
-        HEIGHT * HEIGHT / (self.kappa() * self.modulus())
+        HEIGHT * HEIGHT / (self.kappa() * self.oedometric_modulus())
     }
 
     /// q/M.
     pub(super) fn strain(&self) -> f64 {
-        self.load / self.modulus()
-    }
-
-    /// τ M of the projection; zero without one.
-    fn strength(&self) -> f64 {
-        match self.space() {
-            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
-            _ => 0.0,
-        }
+        self.load / self.oedometric_modulus()
     }
 
     /// Duration of the first step over H²/c_v, and ratio of each step to the one before.
@@ -87,7 +64,7 @@ impl Setup<Terzaghi> {
     pub(super) fn equations(&self, share: f64) -> FirstStep {
         match self.space() {
             Some(TwoGrid) => FirstStep::two_grid(share),
-            _ => FirstStep::same_cells(share, self.strength()),
+            _ => FirstStep::same_cells(share, self.projection_strength()),
         }
     }
 
@@ -110,7 +87,7 @@ impl Setup<Terzaghi> {
     fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
         let p = run.particles();
         let volume = |of: &[f64]| of.iter().sum::<f64>();
-        (volume(&p.reference_volume) - volume(&p.volume)) * self.modulus() / (self.load * HEIGHT)
+        (volume(&p.reference_volume) - volume(&p.volume)) * self.oedometric_modulus() / (self.load * HEIGHT)
     }
 }
 
@@ -159,7 +136,7 @@ impl Problem<1> for Setup<Terzaghi> {
         let (first, growth) = self.first_and_growth();
         let settings = Settings {
             growth,
-            pressure_space: self.pressure_space(self.strength() / self.modulus()),
+            pressure_space: self.pressure_space(self.projection_strength() / self.oedometric_modulus()),
             tolerance: self.tolerance,
             ..Settings::new(first * self.time_scale())
         };
