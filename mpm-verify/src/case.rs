@@ -190,6 +190,11 @@ impl Case {
         }
     }
 
+    /// The same with the levels and the runs of a plan.
+    pub(crate) fn planned(self, plan: Plan) -> Self {
+        Self { levels: plan.levels, plan: plan.families, ..self }
+    }
+
     /// Verdicts on a run that has come to its end, those on its wanted quantities first.
     #[must_use]
     pub fn judge(&self, record: &Record) -> Vec<Verdict> {
@@ -275,8 +280,8 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// An empty plan over `levels`.
-    pub(crate) fn of(levels: &[Level]) -> Self {
-        Self { levels: levels.to_vec(), families: Vec::new() }
+    pub(crate) fn of(levels: impl IntoIterator<Item = Level>) -> Self {
+        Self { levels: levels.into_iter().collect(), families: Vec::new() }
     }
 
     /// Adds runs of `schemes` at the levels of these names, apart by spaces, with the parameters `set`, as `name=value` apart by
@@ -304,11 +309,6 @@ impl Plan {
         sets: impl IntoIterator<Item = S>,
     ) -> Self {
         sets.into_iter().fold(self, |plan, set| plan.runs(tier, levels, schemes, set.as_ref()))
-    }
-
-    /// The families of runs, in the order in which they were added.
-    pub(crate) fn done(self) -> Vec<Family> {
-        self.families
     }
 }
 

@@ -57,9 +57,6 @@ pub(super) fn case_of<A: Analysis + 'static>(name: &'static str, title: &'static
 }
 
 /// Begins a run of the analysis `A`.
-///
-/// # Errors
-/// As [`Analysis::new`].
 pub(super) fn begin<A: Analysis + 'static>(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
     let analysis = A::new(Setup::of_spec(spec, parameters)?)?;
     let found = Vec::new();

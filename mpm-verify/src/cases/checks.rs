@@ -35,6 +35,21 @@ pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {
     runs.get(runs.len().checked_sub(DECIDING)?..)
 }
 
+/// Runs by what those of a set have in common, each set coarsest first.
+pub(super) fn ladders_by<'a, K: Ord>(
+    runs: impl Iterator<Item = &'a Record>,
+    key: impl Fn(&'a Record) -> K,
+) -> BTreeMap<K, Vec<&'a Record>> {
+    let mut ladders: BTreeMap<K, Vec<&Record>> = BTreeMap::new();
+    for r in runs {
+        ladders.entry(key(r)).or_default().push(r);
+    }
+    for ladder in ladders.values_mut() {
+        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+    }
+    ladders
+}
+
 /// Observed order of a metric over the abscissa `over` of some runs, coarsest first; NaN if it follows no power law.
 pub(super) fn observed_order(runs: &[&Record], over: impl Fn(&Record) -> f64, metric: Metric) -> f64 {
     let points: Vec<_> = runs.iter().map(|r| (over(r), r.metric(metric))).collect();

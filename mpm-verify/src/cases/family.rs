@@ -67,12 +67,6 @@ pub(super) fn other_transfers() -> Vec<Scheme> {
     transfers.into_iter().flat_map(with).collect()
 }
 
-/// The main pairs with more particles per cell than the case's own two per direction.
-pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
-    let sets: [&'static [&'static str]; 2] = [&["ppc_per_direction=3"], &["ppc_per_direction=4"]];
-    sets.map(|set| family(tier, levels, &main_pairs(), set))
-}
-
 /// Table of the results of other transfers and particle numbers per direction beside FLIP with the case's default of
 /// two; rows with FLIP results only are left out.
 pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&Record) -> String) -> ResultTable {

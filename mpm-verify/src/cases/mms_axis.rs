@@ -38,7 +38,6 @@ pub(super) fn case() -> Case {
             "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
             "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
         ],
-        plan: plan(&case.levels),
         checks,
         sweeps: vec![
             Sweep::of(PPC_PER_DIRECTION, "particles per direction"),
@@ -46,11 +45,11 @@ pub(super) fn case() -> Case {
         ],
         begin: Box::new(begin::<Axes>),
         tables: tables(),
-        ..case
+        ..case.planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let main = pairs(&SMOOTH, &[none, FbarRecursive, FbarRate, FbarConsistent]);
     let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
@@ -66,7 +65,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let smooth = implicit(&rules[..1], &SMOOTH, &[none]);
     let shorter = ["cfl=0.15", "cfl=0.075", "cfl=0.0375"];
     let densities = ["ppc_per_direction=1", MORE[0], MORE[1]];
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &large[..1], "")
         .runs(Pr, THREE, &main, "")
         .runs(Pr, THREE, &compared, "step_scaling=h2")
@@ -91,7 +90,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n16", &pair, shorter)
         .each(Nightly, "n32", &sound(&BASES), densities)
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

@@ -21,7 +21,6 @@ impl Known for DoubleShear {
 }
 
 pub(super) fn case() -> Case {
-    let levels = metre_levels()[..4].to_vec();
     // One wave across the body.
     let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());
@@ -33,8 +32,6 @@ pub(super) fn case() -> Case {
             "No boundary: mms-vortex-box has walls.",
             "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
         ],
-        plan: plan(&levels),
-        levels,
         checks,
         sweeps: vec![LOCKING_CURVE],
         breaks_down: |r| {
@@ -58,14 +55,14 @@ pub(super) fn case() -> Case {
             "mms-double-shear",
             "Double shear",
             "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
-        ])
+        ]).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    Plan::of(levels)
+    Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &few[2..3], "")
         .runs(Pr, THREE, &[few[1], few[2], few[5]], "")
         .runs(Nightly, FOUR, &all, "")
@@ -74,7 +71,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, THREE, &all, "poisson_ratio=0.3")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.49")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.499")
-        .done()
 }
 
 fn claim(r: &Setup<()>) -> Claim {

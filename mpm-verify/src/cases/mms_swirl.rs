@@ -21,7 +21,6 @@ impl Known for Swirl {
 }
 
 pub(super) fn case() -> Case {
-    let levels = metre_levels()[..3].to_vec();
     let few = pairs(&SMOOTH, &COMPARED);
     let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
@@ -33,14 +32,6 @@ pub(super) fn case() -> Case {
             "Three levels, the coarsest with three cells across the radius of the vortex.",
             "The steps are those of ν = 0.499.",
         ],
-        plan: Plan::of(&levels)
-            .runs(Quick, "n8", &few[2..3], "")
-            .runs(Pr, "n8", &few, "")
-            .runs(Nightly, THREE, &few, "")
-            .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
-            .each(Nightly, "n8 n16", &main_pairs(), MORE)
-            .done(),
-        levels,
         checks,
         tables: vec![
             tables::own_orders("mms-swirl"),
@@ -51,6 +42,13 @@ pub(super) fn case() -> Case {
             "mms-swirl",
             "Swirl in three dimensions",
             "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",
-        ])
+        ]).planned(
+Plan::of(metre_levels()[..3].to_vec())
+            .runs(Quick, "n8", &few[2..3], "")
+            .runs(Pr, "n8", &few, "")
+            .runs(Nightly, THREE, &few, "")
+            .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
+            .each(Nightly, "n8 n16", &main_pairs(), MORE),
+)
     }
 }

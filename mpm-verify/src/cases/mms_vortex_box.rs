@@ -36,7 +36,6 @@ pub(super) fn case() -> Case {
             "fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.",
             "The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.",
         ],
-        plan: plan(&case.levels),
         checks,
         sweeps: vec![LOCKING_CURVE],
         breaks_down: |r| {
@@ -50,11 +49,11 @@ pub(super) fn case() -> Case {
         },
         pictures: |gallery| mean_stress(gallery, "n32", 600.0),
         tables: tables(),
-        ..case
+        ..case.planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let two = [Gimp, Bspline2];
     let few = pairs(&two, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
@@ -65,7 +64,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));
     let soft = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.499"];
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &few[2..3], "")
         .runs(Pr, THREE, &few, "")
         .runs(Pr, "n8 n16", &few, "poisson_ratio=0.3")
@@ -87,7 +86,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, THREE, &all, soft)
         .runs(Long, "n128", &all, "")
         .runs(Long, "n128", &other_transfers(), "")
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

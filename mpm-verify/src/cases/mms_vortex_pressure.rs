@@ -20,7 +20,6 @@ impl Known for PressedVortex {
 }
 
 pub(super) fn case() -> Case {
-    let levels = metre_levels()[..4].to_vec();
     let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
     Case {
@@ -31,8 +30,6 @@ pub(super) fn case() -> Case {
             "The pressure is 100 Pa; at ν = 0.4999 an error of 10⁻⁴ in J is worth more.",
             "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
         ],
-        plan: plan(&levels),
-        levels,
         checks,
         sweeps: vec![LOCKING_CURVE],
         tables: vec![
@@ -54,20 +51,19 @@ pub(super) fn case() -> Case {
             "mms-vortex-pressure",
             "Vortex with a bounded pressure",
             "The vortex in a box, with a pressure that stays bounded as the body becomes incompressible: a remedy must not only remove the spurious pressure but leave the true one.",
-        ])
+        ]).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let all = pairs(&SMOOTH, &REMEDIES);
     let sound = pairs(&SMOOTH, &[FbarRate, FbarConsistent]);
     let ratios = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"];
-    Plan::of(levels)
+    Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &sound[1..2], "")
         .runs(Pr, "n8 n16", &sound, "")
         .runs(Nightly, FOUR, &all, "")
         .runs(Nightly, FOUR, &other_transfers(), "")
         .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n8 n16", &all, ratios)
-        .done()
 }

@@ -48,7 +48,6 @@ pub(super) fn case() -> Case {
             "Compression and extension without shear: mms-vortex-box has the shear.",
             "At ν = 0.3 nothing locks.",
         ],
-        plan: plan(&case.levels),
         checks,
         begin: Box::new(begin::<WallPressure>),
         tables: vec![
@@ -62,11 +61,11 @@ pub(super) fn case() -> Case {
                 ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
             ),
         ],
-        ..case
+        ..case.planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let few = [RemedyName::None, FbarRate, FbarConsistent];
     let two = [Gimp, Bspline2];
     let rules = [RuleName::Midpoint, RuleName::Newmark];
@@ -81,7 +80,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
     let consistent = halved.map(|cfl| format!("{cfl} lumped=0"));
     let lumped = halved.map(|cfl| format!("{cfl} lumped=1"));
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &own[..1], "")
         .runs(Pr, THREE, &own, "")
         .runs(Pr, THREE, &splines[..1], "wall=wall-line")
@@ -98,5 +97,4 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n16", &definite, &consistent)
         .each(Nightly, "n16", &moved, halved)
         .each(Nightly, "n16", &moved[..3], &lumped)
-        .done()
 }

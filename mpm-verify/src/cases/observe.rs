@@ -148,6 +148,12 @@ pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Col
     columns
 }
 
+/// Displacement (m) along an axis, in seeding order.
+pub(super) fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
+}
+
 /// Places (m) of the particles in seeding order.
 pub(super) fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
     let p = run.particles();

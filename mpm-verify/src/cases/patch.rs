@@ -61,7 +61,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(SIDE, [("n8", 8.0)]);
     Case {
         description: "A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
                       and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.",
@@ -70,8 +69,6 @@ pub(super) fn case() -> Case {
             "Transfers without an affine part see a gradient in the interior of a regular lattice alone.",
             "Walls that hold nodes are not here: their share in a transfer is judged by drift alone.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![Wanted::new(
             "motion",
             "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps",
@@ -95,24 +92,23 @@ pub(super) fn case() -> Case {
             2 => crate::problem::begin::<2, Moving>(spec, values),
             _ => crate::problem::begin::<3, Moving>(spec, values),
         }),
-        ..Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL)
+        ..Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = [RemedyName::None];
     let plain = pairs(&[Gimp, Bspline2], &none);
     let affine = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Apic));
     let filters = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Xpic2));
     let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &none);
-    Plan::of(levels)
+    Plan::of(levels(SIDE, [("n8", 8.0)]))
         .runs(Quick, "n8", &affine[1..], "")
         .runs(Pr, "n8", &affine, "")
         .runs(Pr, "n8", &[Scheme::flip(Gimp, FbarConsistent)], "")
         .runs(Pr, "n8", &filters, "")
         .each(Pr, "n8", &plain, ["dimension=3", "strain=0 fall=0.2 damping=0.5"])
         .runs(Pr, "n8", &moved, "strain=0 fall=0.2")
-        .done()
 }
 
 impl Setup<Moved> {

@@ -61,6 +61,13 @@ pub(super) fn above_rounding(distance: f64) -> f64 {
     if distance < ROUNDING { ROUNDING } else { distance }
 }
 
+/// Loss of the body's volume since the start (m³, m² in plane strain, m in one dimension).
+pub(super) fn lost_volume<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    let p = run.particles();
+    let volume = |of: &[f64]| of.iter().sum::<f64>();
+    volume(&p.reference_volume) - volume(&p.volume)
+}
+
 /// Entries of a matrix, on average.
 pub(super) fn matrix_entries<const D: usize>(run: &dyn Simulation<D>) -> f64 {
     let work = run.work();

@@ -101,8 +101,6 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
-    let levels = sizes.map(|(name, h)| Level { name, h });
     let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
     Case {
         description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
@@ -113,8 +111,6 @@ pub(super) fn case() -> Case {
             "The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.",
             "Serendipity elements are the paper's, for this case alone.",
         ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
         wanted: vec![
             Wanted::new("deflection", "u_y of the corner under the whole weight", "corner")
                 .missed_by("coarse-bending no-stabilisation"),
@@ -149,7 +145,7 @@ pub(super) fn case() -> Case {
         pictures: figures::draw,
         tables: tables(),
         breaks_down,
-        ..Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
+        ..Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics).planned(plan())
     }
 }
 
@@ -162,7 +158,7 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     (c.basis() == Q8 && c.load_steps > 20).then_some("particles of serendipity elements leave the body")
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
         bases.iter().map(|basis| Scheme::quasi_static(*basis, RemedyName::None)).collect()
     };
@@ -170,7 +166,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let low = schemes(&[Linear, Gimp]);
     let paper = PAPER.join(" ");
     let linear_gauss = "law=jaumann-linear points=gauss";
-    Plan::of(levels)
+    let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
+    Plan::of(sizes.map(|(name, h)| Level { name, h }))
         .runs(Quick, "h0.1", &splines, "")
         .runs(Pr, "h0.1 h0.05 h0.025", &splines, "")
         .runs(Pr, "h0.1 h0.05", &low, "")
@@ -216,7 +213,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             &q8,
             [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft")),
         )
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

@@ -3,6 +3,7 @@
 use super::edge::{Edge, extremes};
 use super::*;
 use crate::cases::checks::newton_rate;
+use crate::cases::observe::displacement;
 use mpm_core::implicit::Settings;
 use mpm_core::material::{Hypoelastic, JaumannUpdate};
 use mpm_core::stage::BodyForce;
@@ -62,9 +63,6 @@ impl Setup<Cantilever> {
     }
 
     /// The simulation at its start.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
         match self.law {
@@ -114,12 +112,6 @@ pub(super) struct Steps {
     force_rounding: f64,
     energy_ratio: f64,
     rate: Option<f64>,
-}
-
-/// Displacement (m) along an axis, in seeding order.
-fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
-    let p = run.particles();
-    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
 
 /// σ_xx (Pa), in seeding order.

@@ -67,8 +67,6 @@ pub(super) fn case() -> Case {
             "Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.",
             "How flat condition numbers are with a penalty is observed, no theory of the material point method bounds it.",
         ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![Wanted::new(
             "bending",
             "deflection of the cantilever over that without a penalty",
@@ -86,12 +84,13 @@ pub(super) fn case() -> Case {
         sketch: sketch(),
         tables: tables(),
         ..case_of::<Setup<Ellipse>>("conditioning", "Condition numbers of a body that no grid line fits", ALL)
+            .planned(plan())
     }
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let [two, equal] = [TwoGrid, Equal].map(|space| [Gimp, Linear].map(|basis| Scheme::poro(basis, space)));
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "h0.1", &two[..1], "positions=8")
         .runs(Pr, "h0.1", &two, "")
         .runs(Pr, "h0.1", &two, "alpha=0")
@@ -100,7 +99,6 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "h0.1", &two, "mobility=1")
         .runs(Nightly, "h0.1", &two, "alpha=0 mobility=1")
         .each(Nightly, "h0.1", &two, ["alpha=0.001", "alpha=0.01", "alpha=1", "alpha=10"])
-        .done()
 }
 
 fn sketch() -> Sketch {

@@ -69,7 +69,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(HEIGHT, LEVELS);
     Case {
         description: "A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
                       the grid's lines, particles cross cells, pores close and let less water through.",
@@ -83,8 +82,6 @@ pub(super) fn case() -> Case {
             "References at loads of 0.003, 0.3 and 1 M₀ alone.",
             "Linear functions break down at large strain: what they would come to is not known.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("settlement", "settlement over time", "settlement").missed_by("logarithm-loses-water"),
             Wanted::new("pressure", "pressure at the base over time", "base-pressure")
@@ -118,6 +115,7 @@ pub(super) fn case() -> Case {
         tables: tables(),
         breaks_down,
         ..Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
+            .planned(plan())
     }
 }
 
@@ -130,11 +128,11 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     )
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const COARSE: &str = "n8 n16 n32";
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let (both, two_grid) = ([gimp, linear].concat(), &gimp[..1]);
-    Plan::of(levels)
+    Plan::of(levels(HEIGHT, LEVELS))
         .runs(Quick, "n8", two_grid, "refine=1")
         .runs(Pr, "n8 n16 n32 n64", &gimp, "")
         .runs(Pr, "n16", &both, "load=0.003")
@@ -151,7 +149,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n16", two_grid, "refine=1 volume_rate=logarithmic")
         .each(Nightly, COARSE, two_grid, GHOSTS)
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
-        .done()
 }
 
 fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {

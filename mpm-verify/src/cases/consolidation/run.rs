@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{base_pressure, mass_error, matrix_entries, over_outflow};
+use crate::cases::poro::{base_pressure, lost_volume, mass_error, matrix_entries, over_outflow};
 use crate::exact::consolidation::between;
 use mpm_core::poro::{Face, Settings, Tangent, VolumeRate};
 
@@ -106,13 +106,6 @@ pub(super) struct Seen {
     volume_step: f64,
 }
 
-/// Settlement over H.
-fn settlement(run: &dyn Simulation<1>) -> f64 {
-    let p = run.particles();
-    let volume = |of: &[f64]| of.iter().sum::<f64>();
-    (volume(&p.reference_volume) - volume(&p.volume)) / HEIGHT
-}
-
 impl Problem<1> for Setup<Consolidation> {
     type Parameters = Consolidation;
     type Seen = Seen;
@@ -174,7 +167,7 @@ impl Problem<1> for Setup<Consolidation> {
         }
         let at = At {
             t: run.time() / TIME_SCALE,
-            settlement: settlement(run),
+            settlement: lost_volume(run) / HEIGHT,
             base: base_pressure(run) / self.whole_load(),
         };
         seen.rows.push(at);

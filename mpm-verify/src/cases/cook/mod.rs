@@ -100,7 +100,6 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let levels = LEVELS.map(|(name, h, _)| Level { name, h });
     let metrics: Vec<Metric> = OWN.iter().copied().chain(MEAN_STRESSES.iter().map(|(metric, _)| *metric)).collect();
     Case {
         description: "A tapered membrane of nearly incompressible neo-Hookean rubber (plane strain, ν = 0.499), \
@@ -113,8 +112,6 @@ pub(super) fn case() -> Case {
             "The state of rest is approached by kinetic damping; the path to it has no physical meaning.",
             "With fbar-consistent the error does not fall from h = 1 m to ½ m: what the edge of the body adds stays.",
         ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
         wanted: vec![
             Wanted::new("deflection", "displacement of the right side at rest", "mid-edge edge-mean tip").firmly_by("load-at-its-place large-loads").missed_by("locked locks creep never-at-rest rests-late soft-rim short-by-the-loads-place too-stiff-with-more-particles too-soft-when-compressible"),
             Wanted::new("pressure", "mean stress at rest, rms and at seven points", "mean-stress-rms mean-stress-probe smooth-pressure").missed_by("locked locks creep never-at-rest rests-late noisy-pressure pressure-near-free-side"),
@@ -148,7 +145,7 @@ pub(super) fn case() -> Case {
         own_runs,
         pictures: figures::draw,
         tables: tables(),
-        ..Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
+        ..Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics).planned(plan())
     }
 }
 
@@ -166,7 +163,7 @@ fn differs_in_step(r: &Record) -> bool {
     r.changes_only("cfl") && r.remedy() != FbarRecursive
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let three = [Gimp, Bspline2, Bspline3];
     let gimp = |remedies: &[RemedyName]| pairs(&[Gimp], remedies);
@@ -179,7 +176,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     // Loads under which explicit bodies leave the grid, in as many steps, with functions of the rim held.
     let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16), (50, 20)];
     // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
-    Plan::of(levels)
+    Plan::of(LEVELS.map(|(name, h, _)| Level { name, h }))
         .runs(Quick, "h2", &gimp(&REMEDIES), "")
         .runs(Quick, "h2", &gimp(&[FbarRecursive]), "cfl=0.15")
         .runs(Pr, "h2", &two(&REMEDIES), "")
@@ -218,7 +215,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             &statics[1],
             large_loads.map(|(load, steps)| format!("load={load} load_steps={steps} ghost=0.001")),
         )
-        .done()
 }
 
 fn sketch() -> Sketch {

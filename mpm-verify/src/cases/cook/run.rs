@@ -3,7 +3,7 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress};
+use crate::cases::observe::{checkerboard, displacement, mean_stress};
 use crate::statistics::Line;
 use mpm_core::implicit::Settings;
 use mpm_core::stage::{DeadForce, KineticDamping, Load, Observation, RestCriterion};
@@ -68,9 +68,6 @@ impl Setup<Cook> {
     }
 
     /// The particles at their start, with the shares of the full load as their external forces.
-    ///
-    /// # Errors
-    /// Parameters that make no body.
     pub(super) fn loaded_particles(&self) -> Result<Particles<2>, mpm_core::Error> {
         let mut particles = self.particles()?;
         for load in self.loads(0.0, &particles) {
@@ -148,12 +145,6 @@ impl Seen {
         let later = self.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
         fit_line(&later.collect::<Vec<_>>())
     }
-}
-
-/// Displacement (m) along an axis, in seeding order.
-fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
-    let p = run.particles();
-    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
 
 /// One step, and the out-of-balance virtual work in it: Σ m a·u over Σ f·u of the load. In a

@@ -60,8 +60,6 @@ pub(super) fn case() -> Case {
             "Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.",
             "CFL numbers of one and more are refused by the program and not tried.",
         ],
-        levels: LEVELS.to_vec(),
-        plan: plan(),
         wanted: vec![
             Wanted::new("largest-step", "largest stable step over that of linear analysis", "largest-step").missed_by("small-cut fed-by-mean-stress"),
         ],
@@ -85,11 +83,11 @@ pub(super) fn case() -> Case {
             }
         }),
         tables: tables(),
-        ..Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
+        ..Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL).planned(plan())
     }
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let flip = pairs(&BASES, &REMEDIES);
     let mut all = flip.clone();
@@ -97,7 +95,7 @@ fn plan() -> Vec<Family> {
     all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
     let plain = pairs(&BASES, &[none]);
     let space = pairs(&[Gimp, Bspline2], &REMEDIES);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n6", &flip[..1], "dimension=1")
         .runs(Quick, "n6", &plain[..1], "dimension=1 layout=cut")
         .runs(Pr, "n6", &all, "")
@@ -112,7 +110,6 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "n6", &space, "dimension=3")
         .each(Pr, "n6", &plain, ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")))
         .each(Nightly, "n6", &flip, [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")))
-        .done()
 }
 
 fn sketch() -> Sketch {

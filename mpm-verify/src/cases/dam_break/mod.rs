@@ -127,7 +127,6 @@ const SWEEPS: &[Sweep] = &[
 ];
 
 pub(super) fn case() -> Case {
-    let levels = LEVELS.map(|(name, h)| Level { name, h });
     Case {
         description: "Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
          tank 6 m long and climbs the wall. The front is known from inviscid flow, energy may only be lost. \
@@ -139,8 +138,6 @@ pub(super) fn case() -> Case {
             "There is no air and no surface tension: jets are not those of water.",
             "Nothing damps sound: the pressure of fbar-consistent is noisier than that of fbar-recursive.",
         ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
         wanted: vec![
             Wanted::new("front", "place of the front over time, and its arrival", "front arrival")
                 .missed_by("locked makes-energy creeps"),
@@ -168,11 +165,11 @@ pub(super) fn case() -> Case {
         pictures: figures::draw,
         tables: tables(),
         breaks_down: checks::breaks_down,
-        ..Case::of::<2, run::Dam>("dam-break", "Dam break", ALL)
+        ..Case::of::<2, run::Dam>("dam-break", "Dam break", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let flip = |remedies: &[RemedyName]| pairs(&BASES, remedies);
     let none = RemedyName::None;
     let mut all = flip(&[none, FbarRecursive, FbarTotal, FbarConsistent]);
@@ -197,7 +194,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         "seed=2",
         "seed=3",
     ];
-    Plan::of(levels)
+    Plan::of(LEVELS.map(|(name, h)| Level { name, h }))
         .runs(Pr, "h0.5 h0.25", &three, SHORT)
         .runs(Pr, "h0.5", &make_energy, SHORT)
         .runs(Pr, "h0.5", &finest[..2], "duration=0.6")
@@ -207,7 +204,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "h0.5 h0.25 h0.125", &ours, "cfl=0.3 ppc_per_direction=3")
         .each(Nightly, "h0.25", &ours, studies)
         .runs(Long, "h0.0625", &others, LADDER)
-        .done()
 }
 
 const CHANGED: Label = ("changed", |r| r.set.join(", ").replace('_', " "));

@@ -70,9 +70,6 @@ impl Dam {
     }
 
     /// The water behind the gate: exactly at rest, or without weight yet.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     fn behind_the_gate(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
         let rise = if self.is_staged() { RISE } else { 0.0 };
         let gate = gate_of(self.setup.basis(), self.setup.h);
@@ -85,9 +82,6 @@ impl Dam {
     }
 
     /// The same water without a gate.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     pub(super) fn released(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
         solver(self.setup.scheme, self.tank(0.0)?, self.settings()?)
     }

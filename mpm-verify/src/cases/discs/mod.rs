@@ -93,7 +93,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = [("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h });
     Case {
         description: "Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
                       implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
@@ -106,8 +105,6 @@ pub(super) fn case() -> Case {
             "Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.",
             "No exact solution of the collision: energy and momentum are judged, not the motion.",
         ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
         wanted: vec![
             Wanted::new("flight", "velocity and volume of every particle before the impact", "free-flight")
                 .missed_by("touches-through-the-grid"),
@@ -140,7 +137,7 @@ pub(super) fn case() -> Case {
             }
             _ => None,
         },
-        ..Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL)
+        ..Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL).planned(plan())
     }
 }
 
@@ -156,7 +153,7 @@ fn cost(spec: &RunSpec) -> f64 {
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let plain = |basis, transfer| Scheme::explicit(basis, none, transfer);
     let explicit = [Gimp, Bspline2].map(|b| Scheme::flip(b, none));
@@ -172,7 +169,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let slow = |rules: &[RuleName]| implicit(rules, &[Gimp, Linear, Bspline2], &[none]);
     let (both, midpoint) = (slow(&[Midpoint, Newmark]), slow(&[Midpoint]));
     // Offsets: oblique 0.1 m; grazing 0.4 m, where rims would just touch; missing 0.65 m, beyond the reach of all functions.
-    Plan::of(levels)
+    Plan::of([("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h }))
         .runs(Pr, "h0.05", &explicit, "")
         .runs(Quick, "h0.05", &both[..1], "step_factor=100")
         .runs(Pr, "h0.05", &both, "step_factor=100")
@@ -192,7 +189,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.1", "flip=0 offset=0.1"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.4", "flip=0 offset=0.4"])
-        .done()
 }
 
 fn sketch() -> Sketch {

@@ -56,14 +56,11 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
     Case {
         description: "An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
                       closes, friction is Coulomb's, over the barrier's stiffness and the step.",
         references: vec!["Conservation of momentum and energy, Coulomb's law.".to_owned()],
         limits: &["No exact solution of the bounce: what is kept and bounded is judged."],
-        plan: plan(&levels),
-        levels,
         wanted: vec![Wanted::new("friction", "impulse along the floor over that across it", "slides")],
         checks: checks(),
         headlines: vec![
@@ -84,17 +81,17 @@ pub(super) fn case() -> Case {
             (soft && explicit)
                 .then_some("a barrier that a step passes: the gap at its end is closed, and the program says so")
         },
-        ..Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
+        ..Case::of::<2, run::Falling>("drop", "A block bounces", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     use TransferName::{Apic, Xpic2};
     let none = RemedyName::None;
     let mut explicit = pairs(&[Gimp, Bspline2, Bspline3], &[none, FbarConsistent]);
     explicit.extend([Apic, Xpic2].map(|t| Scheme::explicit(Gimp, none, t)));
     let slow = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &[none]);
-    let mut plan = Plan::of(levels)
+    let mut plan = Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0)]))
         .runs(Quick, "n8", &explicit[..1], "")
         .each(Pr, "n8", &explicit, ["", "slant=5", "stiffness=10"])
         .each(Pr, "n8", &slow, ["step_factor=10", "step_factor=10 stiffness=100"])
@@ -102,7 +99,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     for set in ["", "slant=5", "stiffness=10"] {
         plan = plan.runs(Nightly, "n16", &explicit, set).runs(Nightly, "n8", &slow, set);
     }
-    plan.runs(Nightly, "n8", &slow, "step_factor=30").runs(Nightly, "n16", &slow, "step_factor=10").done()
+    plan.runs(Nightly, "n8", &slow, "step_factor=30").runs(Nightly, "n16", &slow, "step_factor=10")
 }
 
 fn sketch() -> Sketch {

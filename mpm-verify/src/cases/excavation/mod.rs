@@ -135,8 +135,6 @@ pub(super) fn case() -> Case {
             "The paper gives neither the friction of its base nor the length of its crest.",
             "Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.",
         ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![
             Wanted::new("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit"),
         ],
@@ -171,7 +169,7 @@ pub(super) fn case() -> Case {
         cost: Box::new(cost),
         pictures,
         tables: vec![equilibria(), collapses(), balances()],
-        ..Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL)
+        ..Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL).planned(plan())
     }
 }
 
@@ -184,7 +182,7 @@ fn cost(spec: &RunSpec) -> f64 {
     steps * 2.0 * (0.1 / spec.level.h).powi(3)
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     const SLIPPERY: &str = "base=friction friction=0.05";
     const SLIPPERY_PERFECT: &str = "base=friction friction=0.05 residual=5e3";
     /// Ground that does not yield under its weight alone.
@@ -196,7 +194,7 @@ fn plan() -> Vec<Family> {
     let means = &resting[..1];
     let two = "h0.1 h0.05";
     let three = "h0.1 h0.05 h0.025";
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Pr, "h0.1", midpoint, "")
         .runs(Quick, "h0.1", means, "")
         .runs(Pr, "h0.1", &moving[1..], "duration=0.5")
@@ -220,7 +218,6 @@ fn plan() -> Vec<Family> {
         .each(Nightly, "h0.1", midpoint, ["ghost=0.001", "cfl=1"])
         .runs(Long, "h0.025", &moving, "")
         .each(Nightly, two, means, [0.1, 0.2, 0.3, 1.0].map(|f| format!("base=friction friction={f}")))
-        .done()
 }
 
 /// Factors of limit analysis, each with whether the slope stands.

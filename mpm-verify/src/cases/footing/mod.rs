@@ -107,8 +107,6 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let cells = [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)];
-    let levels = levels(WIDTH, cells);
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
@@ -123,8 +121,6 @@ pub(super) fn case() -> Case {
             "The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.",
             "At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("limit-load", "load on the footing at the end", "prandtl fem-plateau")
                 .missed_by("no-limit-load locked soft-by-diffusion"),
@@ -157,7 +153,7 @@ pub(super) fn case() -> Case {
         own_runs,
         pictures: figures::draw,
         tables: tables(),
-        ..Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
+        ..Case::of::<2, Pressing>("footing", "Strip footing", &metrics).planned(plan())
     }
 }
 
@@ -176,7 +172,7 @@ fn own_runs(records: &[Record]) -> Vec<&Record> {
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let both = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
     let three = both(&[none, FbarRecursive, FbarConsistent]);
@@ -188,7 +184,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let statics = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[none, FbarConsistent]);
     let small = &SMALL.join(" ");
     let dense = "ppc_per_direction=4";
-    Plan::of(levels)
+    Plan::of(levels(WIDTH, [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)]))
         .runs(Pr, "b10", &three, small)
         .runs(Pr, "b20", &pairs(&[Gimp], &[none, FbarConsistent]), small)
         .runs(Nightly, "b20", &two, small)
@@ -216,7 +212,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b20", &averaged, "contact=barrier")
         .runs(Nightly, "b10", &averaged, ELASTIC)
         .runs(Long, "b40 b80", &statics, "")
-        .done()
 }
 
 fn cost(spec: &RunSpec) -> f64 {

@@ -184,8 +184,6 @@ pub(super) fn plane_case() -> Case {
     let parameters = Landslide::list().into_iter().filter(in_plane).collect();
     let begin = Box::new(problem::begin::<2, Slide<2>>);
     Case {
-        levels: LEVELS_2D.to_vec(),
-        plan: plan_2d(),
         field: FieldView::at(
             1.0,
             ["plastic_strain", "plastic strain after 1 s (-)"],
@@ -193,7 +191,7 @@ pub(super) fn plane_case() -> Case {
             [(0.0, 16.0), (0.0, 5.0)],
         ),
         tables: tables::in_plane(),
-        ..case_of(TEXTS, 2, parameters, begin)
+        ..case_of(TEXTS, 2, parameters, begin).planned(plan_2d())
     }
 }
 
@@ -207,18 +205,13 @@ pub(super) fn case() -> Case {
         "5 m, 5 m wide",
     ];
     let begin: Begin = Box::new(|spec, values| Ok(Box::new(Beside::new(spec, values)?)));
-    Case {
-        levels: LEVELS_3D.to_vec(),
-        plan: plan_3d(),
-        tables: vec![tables::in_space()],
-        ..case_of(TEXTS, 3, Landslide::list(), begin)
-    }
+    Case { tables: vec![tables::in_space()], ..case_of(TEXTS, 3, Landslide::list(), begin).planned(plan_3d()) }
 }
 
-fn plan_2d() -> Vec<Family> {
+fn plan_2d() -> Plan {
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     let levels = "h0.4 h0.2 h0.1 h0.05";
-    let mut plan = Plan::of(&LEVELS_2D)
+    Plan::of(LEVELS_2D)
         .runs(Pr, "h0.4", &all, "duration=1")
         .runs(Nightly, "h0.4 h0.2 h0.1", &all, "")
         .runs(Nightly, "h0.4", &all, "reduction=1 duration=2.5")
@@ -228,15 +221,13 @@ fn plan_2d() -> Vec<Family> {
         .runs(Long, "h0.2", &all, "damping=0.7")
         .runs(Long, "h0.05", &all, "")
         .runs(Long, levels, &other_transfers(), "")
-        .done();
-    plan.extend(more_particles(Long, &LEVELS_2D[..1]));
-    plan
+        .each(Long, "h0.4", &main_pairs(), ["ppc_per_direction=3", "ppc_per_direction=4"])
 }
 
-fn plan_3d() -> Vec<Family> {
+fn plan_3d() -> Plan {
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     let early = pairs(&[Gimp], &[RemedyName::None, FbarConsistent]);
-    Plan::of(&LEVELS_3D)
+    Plan::of(LEVELS_3D)
         // A narrow slice before a short floor, from under rising gravity to just after the reduction, by long steps.
         .runs(Pr, "h0.5", &early, "width=2 floor=3 duration=0.06 cfl=0.6")
         .runs(Nightly, "slice-h0.4", &early, "duration=0.5")
@@ -246,5 +237,4 @@ fn plan_3d() -> Vec<Family> {
         .each(Nightly, "h0.5", &all, ["", "width=2"])
         .runs(Nightly, "h0.25", &early, "")
         .runs(Long, "h0.25 h0.2", &all, "")
-        .done()
 }

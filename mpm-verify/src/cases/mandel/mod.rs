@@ -51,7 +51,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(WIDTH, LEVELS);
     Case {
         description: "A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
                       in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
@@ -65,8 +64,6 @@ pub(super) fn case() -> Case {
             "Small strain on a fixed grid, and an answer that does not depend on the height.",
             "Two particles a cell and axis: with more the difference equations are others.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("pressure", "pressure in the middle over time", "centre-pressure peak"),
             Wanted::new("motion", "paths of plate and side", "settlement bulge"),
@@ -98,15 +95,15 @@ pub(super) fn case() -> Case {
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
         pictures,
         tables: tables(),
-        ..Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL)
+        ..Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let both = [gimp, linear].concat();
     // 60 steps at n8, 240 at n16 and 960 at n32 shrink as h².
-    Plan::of(levels)
+    Plan::of(levels(WIDTH, LEVELS))
         .runs(Quick, "n8", &gimp[..1], "steps=60")
         .runs(Pr, "n8", &both, "")
         .runs(Pr, "n8", &linear, "steps=60")
@@ -120,7 +117,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n32", &both, "steps=960")
         .each(Pr, "n8", &linear, RATIOS)
         .each(Nightly, "n16", &both, RATIOS)
-        .done()
 }
 
 /// The bounds are derived in `docs/mandel.md`.

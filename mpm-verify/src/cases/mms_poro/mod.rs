@@ -74,7 +74,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
     Case {
         description: "A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
                       that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
@@ -87,8 +86,6 @@ pub(super) fn case() -> Case {
             "The body fills its grid: no cell is cut, and no surface moves.",
             "Linear functions stall once particles have moved, as elsewhere.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("fields", "rms errors of u and p at the end", "error-bound"),
         ],
@@ -120,14 +117,14 @@ pub(super) fn case() -> Case {
             _ => crate::problem::begin::<2, Moving>(spec, parameters),
         }),
         tables: tables(),
-        ..Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
+        ..Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const THREE: &str = "n8 n16 n32";
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "n8", &gimp[..1], "")
         .runs(Pr, THREE, &gimp, "")
         .runs(Pr, THREE, &linear[..1], "")
@@ -145,7 +142,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n16", &gimp, "amplitude=0.04 predictor=zero")
         .each(Pr, "n16", &gimp[1..2], TIMES)
         .each(Nightly, "n32", &gimp, TIMES)
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

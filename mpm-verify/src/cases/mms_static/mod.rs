@@ -26,7 +26,6 @@ metrics! { STATIC:
 }
 
 pub(super) fn case() -> Case {
-    let levels = metre_levels()[..3].to_vec();
     let mut checks = of_motion(claim, VORTEX);
     checks.push(stress_order(claim));
     checks.extend(locking());
@@ -52,8 +51,6 @@ pub(super) fn case() -> Case {
         references: vec![
             "Exact solution: that of mms-vortex-pressure, in three dimensions of mms-swirl, at a frequency whose inertia is below 10⁻¹⁰ of the forces.".to_owned(),
         ],
-        plan: plan(&levels),
-        levels,
         checks,
         metrics: [&shared, STATIC].concat(),
         headlines: vec![
@@ -87,11 +84,11 @@ pub(super) fn case() -> Case {
             "mms-static",
             "Slow vortex in a box",
             "The middle of a square turns so slowly that the body is always in equilibrium, by the quasi-static solver: isochoric, or with a pressure that is known. Second order in u; with F̄ no locking.",
-        ])
+        ]).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
         let of = |&b: &_| [RemedyName::None, FbarConsistent].map(|r| Scheme::quasi_static(b, r));
         bases.iter().flat_map(of).collect()
@@ -101,7 +98,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let averaged = &few[3..];
     let ratios = ["poisson_ratio=0.49", "poisson_ratio=0.499"];
     let near = ["poisson_ratio=0.49999", "poisson_ratio=0.499999", "poisson_ratio=0.4999999"];
-    Plan::of(levels)
+    Plan::of(metre_levels()[..3].to_vec())
         .runs(Quick, "n8", averaged, "")
         .runs(Pr, THREE, averaged, "")
         .runs(Pr, "n8 n16", &few, "")
@@ -120,7 +117,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, THREE, &few, "ppc_per_direction=4")
         .runs(Nightly, "n8", &few, "dimension=3")
         .runs(Nightly, "n8", &few, "dimension=3 poisson_ratio=0.3")
-        .done()
 }
 
 /// Errors relative to the motion over the cells, and the error of the mean stress, of runs that change `set`.

@@ -56,7 +56,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
     Case {
         description: "A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
                       load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.",
@@ -65,8 +64,6 @@ pub(super) fn case() -> Case {
                 .to_owned(),
         ],
         limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is").missed_by("moved-quadrature hair-cut"),
         ],
@@ -83,11 +80,11 @@ pub(super) fn case() -> Case {
         sketch: sketch(),
         cost: Box::new(|_| 0.05),
         tables: tables(),
-        ..Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL)
+        ..Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let all = implicit(&[RuleName::QuasiStatic], &[Gimp, Linear, Bspline2], &[RemedyName::None, FbarConsistent]);
     let splines: Vec<Scheme> = all.iter().copied().filter(|s| s.basis() == Bspline2).collect();
     // Loads in one step, and standing columns: iterations that rounding hardly changes.
@@ -112,7 +109,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         "load=20 support=stands",
         "gap=0.99 support=stands",
     ];
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0)]))
         .runs(Quick, "n8", &all[..1], "")
         .runs(Pr, "n8", &all, "")
         .each(Pr, "n8", &all, sure)
@@ -122,7 +119,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n8", &all, small)
         .runs(Nightly, "n16", &all, "")
         .each(Nightly, "n16", &all, sure)
-        .done()
 }
 
 fn sketch() -> Sketch {

@@ -55,7 +55,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n64", 64.0), ("n128", 128.0), ("n256", 256.0)]);
     Case {
         description: "A bar runs into a wall at a tenth to twice the speed of its waves and comes to rest behind a front, whose speed, \
                       stress and loss of energy are exact.",
@@ -63,8 +62,6 @@ pub(super) fn case() -> Case {
             "Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs.".to_owned(),
         ],
         limits: &["Without an artificial viscosity what a front should take rings behind it: none is the default."],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("front", "speed of the front", "shock-speed")
                 .missed_by("recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings"),
@@ -99,11 +96,11 @@ pub(super) fn case() -> Case {
             (smeared && fine)
                 .then_some("under a pressure averaged hats are unstable at any step: docs/critical-step.md")
         },
-        ..Case::of::<1, run::Bar>("shock", "A bar runs into a wall", ALL)
+        ..Case::of::<1, run::Bar>("shock", "A bar runs into a wall", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
     let plain = pairs(&BASES, &[none]);
@@ -117,7 +114,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let [as_fast, twice] = [format!("mach=1 {damped}"), format!("mach=2 {damped}")];
     let slightly = "linear_viscosity=0.06 quadratic_viscosity=1.5";
     let twice_slightly = format!("mach=2 {slightly}");
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n64", 64.0), ("n128", 128.0), ("n256", 256.0)]))
         .runs(Pr, "n64", &viscous, damped)
         .runs(Pr, "n64 n128", &viscous[..2], &twice)
         .runs(Pr, "n128", &weak[..1], &twice_slightly)
@@ -136,7 +133,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n64 n128 n256", &some, "mach=0.1")
         .runs(Nightly, "n64 n128 n256", &sound, "mach=1")
         .runs(Nightly, "n64 n128", &sound, "mach=2")
-        .done()
 }
 
 impl Run<'_, Shock> {

@@ -80,9 +80,6 @@ pub(in crate::cases) struct Ground<const D: usize> {
 
 impl<const D: usize> Ground<D> {
     /// The ground of a setup, of this width (m).
-    ///
-    /// # Errors
-    /// Parameters that make no law.
     pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, mpm_core::Error> {
         let (slope, h) = (setup.slope(), setup.h);
         let number = |p| setup.values.number(p);

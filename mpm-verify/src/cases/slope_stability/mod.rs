@@ -60,8 +60,6 @@ pub(super) fn case() -> Case {
             "Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.",
             "A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.",
         ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![
             Wanted::new("factor-of-safety", "factor of safety against limit analysis", "limit-load").missed_by("locked"),
         ],
@@ -83,15 +81,15 @@ pub(super) fn case() -> Case {
             solver * spec.level.h.powi(-3)
         }),
         tables: tables(),
-        ..Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL)
+        ..Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL).planned(plan())
     }
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let remedies = [RemedyName::None, FbarConsistent];
     let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &remedies);
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
         .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &all, "")
@@ -99,7 +97,6 @@ fn plan() -> Vec<Family> {
         .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &statics, "")
         .runs(Long, "h0.1", &statics, "")
-        .done()
 }
 
 fn checks() -> Vec<Check> {

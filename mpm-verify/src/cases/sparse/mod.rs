@@ -37,7 +37,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]);
     Case {
         description: "A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
                       where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.",
@@ -49,8 +48,6 @@ pub(super) fn case() -> Case {
             "Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.",
             "The motion ends within the box: half-empty cells at a free face are in thin.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![Wanted::new("displacement", "rms error of u", "error-bound").missed_by("one-a-cell beyond-bound")],
         checks: checks::checks(),
         headlines: vec![
@@ -72,11 +69,11 @@ pub(super) fn case() -> Case {
             .length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
         tables: tables(),
-        ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
+        ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let remedies = [RemedyName::None, FbarConsistent];
     let of = |bases: &[BasisName]| implicit(&[RuleName::QuasiStatic], bases, &remedies);
     let all = of(&[Linear, Gimp, Bspline2, Bspline3]);
@@ -89,7 +86,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let random = [two.clone(), three.clone()];
     let better = [layout("jittered", &two), layout("jittered", &three), layout("holes", &two), layout("holes", &three)];
     let sixteen = [layout("lattice", &four), four.clone(), layout("jittered", &four), layout("holes", &four)];
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]))
         .runs(Quick, "n8", &splines, &two)
         .runs(Pr, "n8", &few, "")
         .runs(Pr, "n8", &few, &two)
@@ -110,7 +107,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n16 n32", &splines, &random)
         .each(Nightly, "n16 n32", &splines, &better)
         .each(Nightly, "n16 n32", &splines, &sixteen)
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

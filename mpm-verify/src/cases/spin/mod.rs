@@ -61,8 +61,6 @@ pub(super) fn case() -> Case {
             "The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.",
             "What FLIP takes of the angular momentum follows from no theory here: it is in the table.",
         ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![
             Wanted::new("rotation", "angular momentum that is left", "affine-parts-take-their-share")
                 .missed_by("flip-spins-down filters-spin-down"),
@@ -83,7 +81,7 @@ pub(super) fn case() -> Case {
         cost: Box::new(cost),
         tables: tables(),
         breaks_down,
-        ..Case::of::<2, Spin>("spin", "A disc that turns", ALL)
+        ..Case::of::<2, Spin>("spin", "A disc that turns", ALL).planned(plan())
     }
 }
 
@@ -109,7 +107,7 @@ fn cost(spec: &RunSpec) -> f64 {
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let mut all = pairs(&BASES, &[none]);
     all.extend(pairs(&[Gimp, Bspline2], &[FbarConsistent]));
@@ -120,7 +118,7 @@ fn plan() -> Vec<Family> {
     let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, none);
     let alive: Vec<Scheme> = all.iter().filter(lives).copied().collect();
     let smooth: Vec<Scheme> = all.iter().filter(|s| s.basis() != Linear).copied().collect();
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "r4", &blended[..1], "")
         .runs(Pr, "r4", &alive, "")
         .runs(Pr, "r4 r8", &alive, "turns=2")
@@ -130,7 +128,6 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "r4 r8", &smooth, "time_step=auto turns=2")
         .runs(Pr, "r4", &blended, "flip=0.99")
         .runs(Pr, "r4", &blended, "flip=0")
-        .done()
 }
 
 fn sketch() -> Sketch {

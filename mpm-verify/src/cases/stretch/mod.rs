@@ -59,8 +59,6 @@ pub(super) fn case() -> Case {
             "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
         ],
         limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![
             Wanted::new("stress", "mean stress of the stretched or crushed body", "stress-noise crushed-whole")
                 .missed_by("jumps tears-early recursion-loses"),
@@ -87,11 +85,11 @@ pub(super) fn case() -> Case {
             _ => crate::problem::begin::<2, Stretching>(spec, values),
         }),
         tables: tables(),
-        ..Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL)
+        ..Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL).planned(plan())
     }
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
     let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &[none, FbarConsistent]);
@@ -102,7 +100,7 @@ fn plan() -> Vec<Family> {
     // Transfers of the plane beside FLIP.
     let mut transfers = other_transfers();
     transfers.extend([Linear, Gimp].map(|basis| Scheme::explicit(basis, none, TransferName::Musl)));
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n8", &consistent, "")
         .runs(Pr, "n8", &all, "")
         .runs(Pr, "n8", &sure, "")
@@ -118,7 +116,6 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "n8", &plain, "cfl=0.7 dimension=2 end=0.2236")
         .runs(Nightly, "n8", &plain, "ppc_per_direction=4")
         .runs(Nightly, "n8", &plain, "speed=0.005")
-        .done()
 }
 
 fn sketch() -> Sketch {

@@ -113,7 +113,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
     Case {
         description: "A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
                       grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.",
@@ -126,8 +125,6 @@ pub(super) fn case() -> Case {
             "At large strain nothing is known but balances, and that pressures are smooth.",
             "A rigid strip is held nodes, for settlements that are small against a cell.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("settlement", "settlement of the finest of three levels", "taylor-hood square"),
             Wanted::new("limit-load", "limit load of undrained clay", "prandtl").where_referenced(),
@@ -166,7 +163,7 @@ pub(super) fn case() -> Case {
         pictures: figures::draw,
         tables: tables(),
         breaks_down,
-        ..Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL)
+        ..Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL).planned(plan())
     }
 }
 
@@ -176,11 +173,11 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const EVERY: &str = "b2 b4 b8";
     let all = spaces(Gimp);
     let two_grid = &all[..1];
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "b2", two_grid, "")
         .runs(Pr, EVERY, &all, UNDRAINED)
         .runs(Pr, "b2 b4", two_grid, SMALL)
@@ -206,7 +203,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b4", two_grid, "ghost_pressure=0")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=0.01")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=1")
-        .done()
 }
 
 fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {

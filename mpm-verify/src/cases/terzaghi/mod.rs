@@ -48,7 +48,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(HEIGHT, LEVELS);
     Case {
         description: "A column full of water is loaded at once and drains at its top, at small strain: the exact solution is a series. \
                       Each space of the pressure has a shortest first step below which the pressure overshoots, and by how much \
@@ -61,8 +60,6 @@ pub(super) fn case() -> Case {
             "Small strain on a fixed grid: no particle crosses a cell, and linear functions and GIMP are one.",
             "Two particles a cell: with more the projection's share of the bound is another one.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("settlement", "settlement at the end", "settlement"),
             Wanted::new("pressure", "largest nodal pressure after the first step", "overshoot")
@@ -88,14 +85,14 @@ pub(super) fn case() -> Case {
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-2)),
         pictures,
         tables: tables(),
-        ..Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL)
+        ..Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let both = [gimp, linear].concat();
-    Plan::of(levels)
+    Plan::of(levels(HEIGHT, LEVELS))
         .runs(Quick, "n10", &gimp[..1], "")
         .runs(Pr, "n10 n20 n40 n80 n160", &both, "")
         // A first step of T = 4·10⁻⁵ on 20 and on 160 cells, and eighty growing ones after it.
@@ -106,7 +103,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Pr, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Nightly, "n20", &gimp, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Pr, "n80", &linear, [5, 10, 20, 80].map(|n| format!("steps={n}")))
-        .done()
 }
 
 fn checks() -> Vec<Check> {

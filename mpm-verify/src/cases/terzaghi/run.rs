@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{ROUNDING, base_pressure, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{ROUNDING, base_pressure, lost_volume, mass_error, matrix_entries, outflow};
 use crate::exact::terzaghi::FirstStep;
 use mpm_core::poro::{Face, Settings};
 
@@ -85,9 +85,7 @@ impl Setup<Terzaghi> {
 
     /// Settlement over the final one.
     fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
-        let p = run.particles();
-        let volume = |of: &[f64]| of.iter().sum::<f64>();
-        (volume(&p.reference_volume) - volume(&p.volume)) * self.oedometric_modulus() / (self.load * HEIGHT)
+        lost_volume(run) * self.oedometric_modulus() / (self.load * HEIGHT)
     }
 }
 

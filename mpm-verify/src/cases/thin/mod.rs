@@ -49,7 +49,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(DEPTH, [("t1", 1.0), ("t2", 2.0), ("t4", 4.0)]);
     Case {
         description: "A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
                       its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.",
@@ -62,8 +61,6 @@ pub(super) fn case() -> Case {
             "One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.",
             "What F̄ leaves of the bending stiffness of linear functions is not foretold.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("frequency", "frequency of the first bending mode", "as-predicted")
                 .missed_by("locks two-particles average-hollows"),
@@ -85,11 +82,11 @@ pub(super) fn case() -> Case {
             is_singular
                 .then_some("domains at a face share too little of their outermost functions for a consistent mass")
         },
-        ..Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL)
+        ..Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let plain = [RemedyName::None];
     let both = [RemedyName::None, FbarConsistent];
     let of = |rule, bases: &[BasisName]| implicit(&[rule], bases, &plain);
@@ -97,7 +94,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let linear = of(RuleName::Midpoint, &[Linear]);
     let splines = of(RuleName::Midpoint, &[Bspline2]);
     let consistent = "cfl=5 lumped=0";
-    Plan::of(levels)
+    Plan::of(levels(DEPTH, [("t1", 1.0), ("t2", 2.0), ("t4", 4.0)]))
         .runs(Quick, "t1", &few[2..3], "")
         .runs(Pr, "t1 t2", &few, "")
         .runs(Pr, "t1", &few, "poisson_ratio=0.49")
@@ -115,7 +112,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "t2 t4", &splines, consistent)
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]), "cfl=5")
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]), "cfl=5")
-        .done()
 }
 
 fn sketch() -> Sketch {

@@ -63,8 +63,6 @@ pub(super) fn case() -> Case {
             "One lattice, seven particles to four cells along the motion: another has other waves.",
             "What is foretold is of particles at rest relative to each other and small noise.",
         ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
         wanted: vec![Wanted::new(
             "stress",
             "noise of the stress that is carried along",
@@ -87,25 +85,24 @@ pub(super) fn case() -> Case {
             .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"),
         cost: Box::new(|_| 0.2),
         tables: tables(),
-        ..Case::of::<2, Translation>("translate", "A stress that crosses a hundred cells", ALL)
+        ..Case::of::<2, Translation>("translate", "A stress that crosses a hundred cells", ALL).planned(plan())
     }
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let mut all = pairs(&BASES, &REMEDIES);
     all.extend(other_transfers());
     all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
     let plain = pairs(&BASES, &[none]);
     let offered = pairs(&BASES[1..], &[none, FbarConsistent]);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n8", &plain[1..2], "cells=10")
         .runs(Pr, "n8", &all, "")
         .runs(Pr, "n8", &plain, "stretch=1.02")
         .runs(Nightly, "n8", &all, "stretch=1.02")
         .runs(Nightly, "n8", &all, "speed=0.1")
         .runs(Nightly, "n8", &offered, "time_step=auto")
-        .done()
 }
 
 impl Setup<Translate> {

@@ -5,7 +5,7 @@
 mod run;
 
 use super::analysis::case_of;
-use super::checks::{finest, observed_order};
+use super::checks::{finest, ladders_by, observed_order};
 use crate::cases::prelude::*;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
@@ -56,7 +56,6 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
     Case {
         description: "Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
                       order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.",
@@ -68,8 +67,6 @@ pub(super) fn case() -> Case {
             "Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.",
             "Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.",
         ],
-        plan: plan(&levels),
-        levels,
         wanted: vec![
             Wanted::new("pressure-modes", "number of pressures without an effect", "one-constant").missed_by("equal-order-has-checkerboards equal-order-loses-the-pressure"),
         ],
@@ -90,16 +87,16 @@ pub(super) fn case() -> Case {
         sketch: sketch(),
         cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-4)),
         tables: tables(),
-        ..case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL)
+        ..case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL).planned(plan())
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const EVERY: &str = "n8 n16 n32";
     let stable = [Gimp, Linear, Bspline2].map(|basis| Scheme::poro(basis, TwoGrid));
     let equal = [Gimp, Linear].map(|basis| Scheme::poro(basis, Equal));
     let (gimp, equal_gimp) = (&stable[..1], &equal[..1]);
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "n8", gimp, "")
         .runs(Pr, EVERY, &stable, "")
         .runs(Pr, "n8 n16", &equal, "")
@@ -112,7 +109,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Pr, EVERY, &stable[2..], "pressure_functions=linear")
         .runs(Nightly, EVERY, &equal, "")
         .runs(Nightly, EVERY, equal_gimp, "layout=across")
-        .done()
 }
 
 fn sketch() -> Sketch {
@@ -179,12 +175,8 @@ fn at_least(records: &[Record], metric: Metric, space: SpaceName, (formal, why):
 
 /// The order of a metric over three levels, for every scheme and every body.
 fn orders(records: &[Record], metric: Metric, own: impl Fn(&Setup<Undrained>) -> bool) -> Vec<(String, f64)> {
-    let mut ladders: BTreeMap<(Scheme, &[String]), Vec<&Record>> = BTreeMap::new();
-    for r in records.iter().filter(|r| Setup::holds(r, &own)) {
-        ladders.entry((r.scheme(), &r.set)).or_default().push(r);
-    }
-    let of = |((scheme, set), mut runs): ((Scheme, &[String]), Vec<&Record>)| {
-        runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+    let ladders = ladders_by(records.iter().filter(|r| Setup::holds(r, &own)), |r| (r.scheme(), &r.set));
+    let of = |((scheme, set), runs): ((Scheme, &Vec<String>), Vec<&Record>)| {
         let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
         let name = format!("order of {} of {scheme} {}", metric.name, set.join(" "));
         Some((name.trim_end().to_owned(), order))
