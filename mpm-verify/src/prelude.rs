@@ -18,8 +18,7 @@ pub(crate) use crate::probe::PointProbe;
 pub(crate) use crate::problem::{Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};
 pub(crate) use crate::results::{
-    BASIS, CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, headline, is_flip, order, percent,
-    scientific, share,
+    BASIS, CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent, scientific, share,
 };
 pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};
 pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
@@ -30,7 +29,6 @@ pub(crate) use crate::sketch::Sketch;
 pub(crate) use crate::spec::{Level, RunSpec};
 pub(crate) use crate::statistics::{fit_line, rms};
 pub(crate) use crate::table::Table;
-pub(crate) use crate::wanted::Wanted;
 pub(crate) use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 pub(crate) use mpm_core::explicit::courant_time_step;
 pub(crate) use mpm_core::explicit::transfer::Flip;

@@ -29,24 +29,17 @@ pub(super) fn case() -> Case {
     let mut checks = of_motion(between_rollers, Wave::pressure(|p| PI * p.number(HALF_WAVES)));
     checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
-    Case {
-        references: vec![
-            "Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.",
-            "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
-            "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
-        ],
-        checks,
-        sweeps: vec![
-            Sweep::of(PPC_PER_DIRECTION, "particles per direction"),
-            Sweep::of(CFL, "CFL number").logarithmic(),
-        ],
-        begin: Box::new(begin::<Axes>),
-        tables: tables(),
-        ..case.planned(plan())
-    }
+    case
+        .planned(plan())
+        .reference("Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.")
+        .limit("∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.")
+        .limit("At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.")
+        .limit("Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.")
+        .checks(checks)
+        .sweep(Sweep::of(PPC_PER_DIRECTION, "particles per direction"))
+        .sweep(Sweep::of(CFL, "CFL number").logarithmic())
+        .begun(begin::<Axes>)
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -24,39 +24,34 @@ pub(super) fn case() -> Case {
     // One wave across the body.
     let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());
-    Case {
-        references: vec![
-            "Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "No boundary: mms-vortex-box has walls.",
-            "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
-        ],
-        checks,
-        sweeps: vec![LOCKING_CURVE],
-        breaks_down: |r| {
-            let scheme = (r.basis(), r.remedy()) == (Gimp, FbarTotal);
-            (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
-        },
-        pictures: |gallery| mean_stress(gallery, "n64", 100.0),
-        tables: vec![
-            tables::own_orders("mms-double-shear"),
-            tables::locking(
-                "mms-double-shear-locking",
-                [
-                    ("n8, 0.4999", "n8", ""),
-                    ("n16, 0.4999", "n16", ""),
-                    ("n32, 0.4999", "n32", ""),
-                ],
-            ),
-            tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]),
-        ],
-        ..known_case::<2, DoubleShear>([
-            "mms-double-shear",
-            "Double shear",
-            "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
-        ]).planned(plan())
-    }
+    known_case::<2, DoubleShear>([
+        "mms-double-shear",
+        "Double shear",
+        "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
+    ])
+    .planned(plan())
+    .reference("Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.")
+    .limit("No boundary: mms-vortex-box has walls.")
+    .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
+    .checks(checks)
+    .sweep(LOCKING_CURVE)
+    .breaks_down(|r| {
+        let scheme = (r.basis(), r.remedy()) == (Gimp, FbarTotal);
+        (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
+    })
+    .pictures(|gallery| mean_stress(gallery, "n64", 100.0))
+    .tables(vec![
+        tables::own_orders("mms-double-shear"),
+        tables::locking(
+            "mms-double-shear-locking",
+            [
+                ("n8, 0.4999", "n8", ""),
+                ("n16, 0.4999", "n16", ""),
+                ("n32, 0.4999", "n32", ""),
+            ],
+        ),
+        tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]),
+    ])
 }
 
 fn plan() -> Plan {

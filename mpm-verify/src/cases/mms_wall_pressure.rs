@@ -40,17 +40,14 @@ pub(super) fn case() -> Case {
     let mut checks = of_motion(claim, Wave::pressure(|_| PI));
     checks.push(stress_order(claim));
     checks.extend(order_in_time());
-    Case {
-        references: vec![
-            "Exact solution u_i = 4A X_i (1 − X_i) sin ωt, derived with the code; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "Compression and extension without shear: mms-vortex-box has the shear.",
-            "At ν = 0.3 nothing locks.",
-        ],
-        checks,
-        begin: Box::new(begin::<WallPressure>),
-        tables: vec![
+    case
+        .planned(plan())
+        .reference("Exact solution u_i = 4A X_i (1 − X_i) sin ωt, derived with the code; the balance of momentum is tested by eighth-order differences at random points.")
+        .limit("Compression and extension without shear: mms-vortex-box has the shear.")
+        .limit("At ν = 0.3 nothing locks.")
+        .checks(checks)
+        .begun(begin::<WallPressure>)
+        .tables(vec![
             tables::own_orders("mms-wall-pressure"),
             tables::orders("mms-wall-pressure-rules", tables::is_of_rule),
             tables::orders("mms-wall-pressure-wall-line", |r| {
@@ -60,9 +57,7 @@ pub(super) fn case() -> Case {
                 "mms-wall-pressure-large",
                 ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
             ),
-        ],
-        ..case.planned(plan())
-    }
+        ])
 }
 
 fn plan() -> Plan {

@@ -61,39 +61,30 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
-                      and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.",
-        references: vec!["Exact: an affine motion without forces, and free fall.".to_owned()],
-        limits: &[
-            "Transfers without an affine part see a gradient in the interior of a regular lattice alone.",
-            "Walls that hold nodes are not here: their share in a transfer is judged by drift alone.",
-        ],
-        wanted: vec![Wanted::new(
-            "motion",
-            "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps",
-            "affine filter free-fall",
-        )],
-        checks: checks(),
-        headlines: vec![
-            headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9),
-            headline(VELOCITY_ERROR, "velocity (–)", 1.0, 9),
-            headline(STRESS_ERROR, "stress (–)", 1.0, 9),
-            headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6),
-        ],
-        watched: &["displacement_error", "kinetic_energy"],
-        sketch: Sketch::of("A cube that stretches, shears and falls away from the walls of its corner.")
+    Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL)
+        .planned(plan())
+        .described("A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
+            and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.")
+        .reference("Exact: an affine motion without forces, and free fall.")
+        .limit("Transfers without an affine part see a gradient in the interior of a regular lattice alone.")
+        .limit("Walls that hold nodes are not here: their share in a transfer is judged by drift alone.")
+        .wanted("motion", "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps", "affine filter free-fall")
+        .checks(checks())
+        .headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9)
+        .headline(VELOCITY_ERROR, "velocity (–)", 1.0, 9)
+        .headline(STRESS_ERROR, "stress (–)", 1.0, 9)
+        .headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6)
+        .watched(&["displacement_error", "kinetic_energy"])
+        .sketch(Sketch::of("A cube that stretches, shears and falls away from the walls of its corner.")
             .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
             .load([0.4, 0.4], [0.7, 0.7])
             .note([0.5, -0.1], "wall that doesn't hold")
-            .length([0.0, 1.1], [1.0, 1.1], "1 m"),
-        cost: Box::new(|_| 0.01),
-        begin: Box::new(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
+            .length([0.0, 1.1], [1.0, 1.1], "1 m"))
+        .cost(|_| 0.01)
+        .begun(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
             2 => crate::problem::begin::<2, Moving>(spec, values),
             _ => crate::problem::begin::<3, Moving>(spec, values),
-        }),
-        ..Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL).planned(plan())
-    }
+        })
 }
 
 fn plan() -> Plan {

@@ -102,51 +102,42 @@ metrics! {
 
 pub(super) fn case() -> Case {
     let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
-    Case {
-        description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
-                      the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
-                      finite elements; the paper's serendipity elements don't converge.",
-        references: crate::exact::cantilever::describe(),
-        limits: &[
-            "The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.",
-            "Serendipity elements are the paper's, for this case alone.",
-        ],
-        wanted: vec![
-            Wanted::new("deflection", "u_y of the corner under the whole weight", "corner")
-                .missed_by("coarse-bending no-stabilisation"),
-            Wanted::new("stress", "σ_xx at six points near the clamp", "stress")
-                .missed_by("coarse-bending no-stabilisation"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(CORNER_UX, "corner u_x (m)", 1.0, 4),
-            headline(CORNER_UY, "corner u_y (m)", 1.0, 4),
-            headline(EDGE_MEAN_UY, "edge mean u_y (m)", 1.0, 4),
-            headline(STRESS_MIN, "σ_xx from (kPa)", 1e-3, 1),
-            headline(STRESS_MAX, "to (kPa)", 1e-3, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(LOG10_CONDITION, "log₁₀ condition", 1.0, 1),
-        ],
-        quantities: vec![
-            error(CORNER_ERROR, "relative error of the corner's u_y"),
-            error(STRESS_ERROR, "relative error of σ_xx near the clamp"),
-        ],
-        watched: &["corner_uy", "newton_iterations"],
-        field: FieldView::at_end(["stress_xx", "σ_xx at 4 kN/m³ (Pa)"], (-4e4, 4e4), [(-0.05, 1.05), (-0.65, 0.35)]),
-        sketch: Sketch::of("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.")
+    Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
+        .planned(plan())
+        .described("An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
+            the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
+            finite elements; the paper's serendipity elements don't converge.")
+        .references(crate::exact::cantilever::describe())
+        .limit("The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.")
+        .limit("Serendipity elements are the paper's, for this case alone.")
+        .wanted("deflection", "u_y of the corner under the whole weight", "corner")
+        .missed_by("coarse-bending no-stabilisation")
+        .wanted("stress", "σ_xx at six points near the clamp", "stress")
+        .missed_by("coarse-bending no-stabilisation")
+        .checks(checks::checks())
+        .headline(CORNER_UX, "corner u_x (m)", 1.0, 4)
+        .headline(CORNER_UY, "corner u_y (m)", 1.0, 4)
+        .headline(EDGE_MEAN_UY, "edge mean u_y (m)", 1.0, 4)
+        .headline(STRESS_MIN, "σ_xx from (kPa)", 1e-3, 1)
+        .headline(STRESS_MAX, "to (kPa)", 1e-3, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(LOG10_CONDITION, "log₁₀ condition", 1.0, 1)
+        .quantity(error(CORNER_ERROR, "relative error of the corner's u_y"))
+        .quantity(error(STRESS_ERROR, "relative error of σ_xx near the clamp"))
+        .watched(&["corner_uy", "newton_iterations"])
+        .field(FieldView::at_end(["stress_xx", "σ_xx at 4 kN/m³ (Pa)"], (-4e4, 4e4), [(-0.05, 1.05), (-0.65, 0.35)]))
+        .sketch(Sketch::of("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.")
             .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
             .held([0.0, 0.0], [0.0, DEPTH])
             .length([0.0, -0.1], [LENGTH, -0.1], "1 m")
             .length([1.12, 0.0], [1.12, DEPTH], "0.3 m")
             .note([0.5, 0.24], "4 kN/m³")
             .probe([LENGTH, 0.0], "corner")
-            .loads((0..4).map(|k| 0.2 + 0.2 * f64::from(k)), [0.19, 0.07]),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-3)),
-        pictures: figures::draw,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics).planned(plan())
-    }
+            .loads((0..4).map(|k| 0.2 + 0.2 * f64::from(k)), [0.19, 0.07]))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-3))
+        .pictures(figures::draw)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// The reason why a run without stabilisation, or with the paper's elements, is known to break down.

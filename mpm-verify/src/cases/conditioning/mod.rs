@@ -54,38 +54,24 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "Half an ellipse at forty places within one cell of the pressure: condition numbers of the matrices of displacement and \
-                      pressure and of the whole, for strengths of the ghost penalties, and what these cost a cantilever.",
-        references: vec![
-            "Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more."
-                .to_owned(),
-            "Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand."
-                .to_owned(),
-        ],
-        limits: &[
-            "Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.",
-            "How flat condition numbers are with a penalty is observed, no theory of the material point method bounds it.",
-        ],
-        wanted: vec![Wanted::new(
-            "bending",
-            "deflection of the cantilever over that without a penalty",
-            "no-body-bends-more",
-        )],
-        checks: checks(),
-        headlines: vec![
-            headline(COND_UU, "log₁₀ cond uu, most", 1.0, 2),
-            headline(COND_UU_MEAN, "mean", 1.0, 2),
-            headline(COND_PP, "log₁₀ cond pp, most", 1.0, 2),
-            headline(COND_PP_MEAN, "mean", 1.0, 2),
-            headline(DEFLECTION_CHANGE, "change of deflection (%)", 100.0, 2),
-        ],
-        watched: &["log10_cond_uu", "log10_cond_pp"],
-        sketch: sketch(),
-        tables: tables(),
-        ..case_of::<Setup<Ellipse>>("conditioning", "Condition numbers of a body that no grid line fits", ALL)
-            .planned(plan())
-    }
+    case_of::<Setup<Ellipse>>("conditioning", "Condition numbers of a body that no grid line fits", ALL)
+        .planned(plan())
+        .described("Half an ellipse at forty places within one cell of the pressure: condition numbers of the matrices of displacement and \
+            pressure and of the whole, for strengths of the ghost penalties, and what these cost a cantilever.")
+        .reference("Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more.")
+        .reference("Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand.")
+        .limit("Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.")
+        .limit("How flat condition numbers are with a penalty is observed, no theory of the material point method bounds it.")
+        .wanted("bending", "deflection of the cantilever over that without a penalty", "no-body-bends-more")
+        .checks(checks())
+        .headline(COND_UU, "log₁₀ cond uu, most", 1.0, 2)
+        .headline(COND_UU_MEAN, "mean", 1.0, 2)
+        .headline(COND_PP, "log₁₀ cond pp, most", 1.0, 2)
+        .headline(COND_PP_MEAN, "mean", 1.0, 2)
+        .headline(DEFLECTION_CHANGE, "change of deflection (%)", 100.0, 2)
+        .watched(&["log10_cond_uu", "log10_cond_pp"])
+        .sketch(sketch())
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -69,54 +69,42 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
-                      the grid's lines, particles cross cells, pores close and let less water through.",
-        references: vec![
-            "references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸."
-                .to_owned(),
-            "The same of backward Euler's steps: the error of space by itself.".to_owned(),
-        ],
-        limits: &[
-            "One dimension; the improved Hencky law is our own, from its published description.",
-            "References at loads of 0.003, 0.3 and 1 M₀ alone.",
-            "Linear functions break down at large strain: what they would come to is not known.",
-        ],
-        wanted: vec![
-            Wanted::new("settlement", "settlement over time", "settlement").missed_by("logarithm-loses-water"),
-            Wanted::new("pressure", "pressure at the base over time", "base-pressure")
-                .missed_by("logarithm-loses-water"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 3),
-            headline(SETTLEMENT_ERROR_STEPS, "of space alone (%)", 100.0, 3),
-            headline(BASE_PRESSURE_ERROR, "error of p at the base (% of q)", 100.0, 3),
-            headline(SETTLEMENT_END, "settlement (% of H)", 100.0, 3),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(RATE_LOSS, "½ Σ V (J̃ − 1)² over the outflow (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(SETTLEMENT_ERROR_STEPS, "relative error of the settlement in space"),
-            error(SETTLEMENT_ERROR, "relative error of the settlement"),
-        ],
-        watched: &["base_pressure", "settlement"],
-        sketch: Sketch::of(
+    Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
+        .planned(plan())
+        .described("A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
+            the grid's lines, particles cross cells, pores close and let less water through.")
+        .reference("references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸.")
+        .reference("The same of backward Euler's steps: the error of space by itself.")
+        .limit("One dimension; the improved Hencky law is our own, from its published description.")
+        .limit("References at loads of 0.003, 0.3 and 1 M₀ alone.")
+        .limit("Linear functions break down at large strain: what they would come to is not known.")
+        .wanted("settlement", "settlement over time", "settlement")
+        .missed_by("logarithm-loses-water")
+        .wanted("pressure", "pressure at the base over time", "base-pressure")
+        .missed_by("logarithm-loses-water")
+        .checks(checks::checks())
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 3)
+        .headline(SETTLEMENT_ERROR_STEPS, "of space alone (%)", 100.0, 3)
+        .headline(BASE_PRESSURE_ERROR, "error of p at the base (% of q)", 100.0, 3)
+        .headline(SETTLEMENT_END, "settlement (% of H)", 100.0, 3)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(RATE_LOSS, "½ Σ V (J̃ − 1)² over the outflow (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(SETTLEMENT_ERROR_STEPS, "relative error of the settlement in space"))
+        .quantity(error(SETTLEMENT_ERROR, "relative error of the settlement"))
+        .watched(&["base_pressure", "settlement"])
+        .sketch(Sketch::of(
             "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
         )
         .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
         .held([0.0, 0.0], [0.3, 0.0])
         .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
         .note([0.15, 1.2], "q, drained")
-        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-1)),
-        pictures,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
-            .planned(plan())
-    }
+        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-1))
+        .pictures(pictures)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// Reason why a run of this kind is known to break down: at large strain linear functions see the load's corner leave the cells

@@ -48,32 +48,26 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
-                      does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
-                      grid, compressed and stretched, and with an artificial viscosity.",
-        references: vec![
-            "Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.".to_owned(),
-            "A bound for any arrangement of particles, docs/critical-step.md.".to_owned(),
-        ],
-        limits: &[
-            "Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.",
-            "CFL numbers of one and more are refused by the program and not tried.",
-        ],
-        wanted: vec![
-            Wanted::new("largest-step", "largest stable step over that of linear analysis", "largest-step").missed_by("small-cut fed-by-mean-stress"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3),
-            headline(PREDICTED_CFL, "predicted (–)", 1.0, 3),
-            headline(OFFERED_CFL, "offered (–)", 1.0, 3),
-            headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3),
-        ],
-        watched: &["growth", "cfl"],
-        sketch: sketch(),
-        cost: Box::new(|_| 0.1),
-        begin: Box::new(|spec, values| {
+    Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
+        .planned(plan())
+        .described("A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
+            does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
+            grid, compressed and stretched, and with an artificial viscosity.")
+        .reference("Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.")
+        .reference("A bound for any arrangement of particles, docs/critical-step.md.")
+        .limit("Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.")
+        .limit("CFL numbers of one and more are refused by the program and not tried.")
+        .wanted("largest-step", "largest stable step over that of linear analysis", "largest-step")
+        .missed_by("small-cut fed-by-mean-stress")
+        .checks(checks())
+        .headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3)
+        .headline(PREDICTED_CFL, "predicted (–)", 1.0, 3)
+        .headline(OFFERED_CFL, "offered (–)", 1.0, 3)
+        .headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3)
+        .watched(&["growth", "cfl"])
+        .sketch(sketch())
+        .cost(|_| 0.1)
+        .begun(|spec, values| {
             let setup = Setup::<Step>::of_spec(spec, values)?;
             match setup.dimension {
                 1 if setup.linear_viscosity > 0.0 => begin::<1, Trials<1, Viscous<NeoHookean>>>(spec, values),
@@ -81,10 +75,8 @@ pub(super) fn case() -> Case {
                 2 => begin::<2, Trials<2, NeoHookean>>(spec, values),
                 _ => begin::<3, Trials<3, NeoHookean>>(spec, values),
             }
-        }),
-        tables: tables(),
-        ..Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL).planned(plan())
-    }
+        })
+        .tables(tables())
 }
 
 fn plan() -> Plan {

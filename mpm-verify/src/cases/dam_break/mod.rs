@@ -10,7 +10,6 @@ mod run;
 
 use crate::cases::prelude::*;
 use crate::exact::dam_break::{DEPTH, GRAVITY, LENGTH, TANK};
-use crate::metric::Quantity as Studied;
 
 const LEVELS: [(&str, f64); 4] = [("h0.5", 0.5), ("h0.25", 0.25), ("h0.125", 0.125), ("h0.0625", 0.0625)];
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
@@ -97,60 +96,43 @@ metrics! { ALL:
     MASS = "mass", "kg/m", "mass of the water at the end";
 }
 
-fn headlines() -> Vec<Column> {
-    vec![
-        headline(FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3),
-        headline(FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3),
-        headline(ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1),
-        headline(ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4),
-        headline(ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3),
-        headline(MOTION_RATIO_2S, "without stress work (–)", 1.0, 3),
-        headline(PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1),
-        headline(CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2),
-        headline(TENSION_SHARE, "in tension (%)", 100.0, 1),
-        headline(COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2),
-        headline(WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2),
-        headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4),
-    ]
-}
-
-const QUANTITIES: &[Studied] = &[
-    error(FRONT_RMS_ERROR, "rms error of the front (m)"),
-    error(ARRIVAL_ERROR, "error of the arrival (s)"),
-    value(WALL_IMPULSE, "impulse on the wall (N s/m)"),
-    value(CENTRE_X_MEAN, "mean centre of mass (m)"),
-];
-
-const SWEEPS: &[Sweep] = &[
-    Sweep::of(CFL, "CFL number (–)").logarithmic(),
-    Sweep::of(PIC_RATE, "PIC share per unit of time (1/s)").logarithmic(),
-];
-
 pub(super) fn case() -> Case {
-    Case {
-        description: "Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
-         tank 6 m long and climbs the wall. The front is known from inviscid flow, energy may only be lost. \
-         Standard MPM locks: it flows too slowly, with a pressure that is noise.",
-        references: crate::exact::dam_break::describe(),
-        limits: &[
-            "Tension is allowed: water that is pulled apart holds together by cells.",
-            "After the front has met the wall single particles are chaotic; only sums over the water, compared over levels and ensembles, mean something.",
-            "There is no air and no surface tension: jets are not those of water.",
-            "Nothing damps sound: the pressure of fbar-consistent is noisier than that of fbar-recursive.",
-        ],
-        wanted: vec![
-            Wanted::new("front", "place of the front over time, and its arrival", "front arrival")
-                .missed_by("locked makes-energy creeps"),
-            Wanted::new("pressure", "pressure behind the gate before the water flows", "pressure-profile")
-                .missed_by("smoothed-start creeps"),
-        ],
-        checks: checks::checks(),
-        headlines: headlines(),
-        quantities: QUANTITIES.to_vec(),
-        sweeps: SWEEPS.to_vec(),
-        watched: &["front", "energy", "front_force", "pressure_rms"],
-        field: FieldView::at(0.3, ["pressure", "pressure after 0.3 s (Pa)"], (-1e5, 1e5), [(0.0, 5.0), (0.0, 2.0)]),
-        sketch: Sketch::of("Water four metres long and two metres deep stands between the left wall of a tank and a gate; the tank is six metres long, open above, its floor and walls smooth. The gate is removed at once.")
+    Case::of::<2, run::Dam>("dam-break", "Dam break", ALL)
+        .planned(plan())
+        .described("Water, nearly incompressible, 4 m × 2 m behind a gate that is removed at once; it runs along the floor of a \
+            tank 6 m long and climbs the wall. The front is known from inviscid flow, energy may only be lost. \
+            Standard MPM locks: it flows too slowly, with a pressure that is noise.")
+        .references(crate::exact::dam_break::describe())
+        .limit("Tension is allowed: water that is pulled apart holds together by cells.")
+        .limit("After the front has met the wall single particles are chaotic; only sums over the water, compared over levels and ensembles, mean something.")
+        .limit("There is no air and no surface tension: jets are not those of water.")
+        .limit("Nothing damps sound: the pressure of fbar-consistent is noisier than that of fbar-recursive.")
+        .wanted("front", "place of the front over time, and its arrival", "front arrival")
+        .missed_by("locked makes-energy creeps")
+        .wanted("pressure", "pressure behind the gate before the water flows", "pressure-profile")
+        .missed_by("smoothed-start creeps")
+        .checks(checks::checks())
+        .headline(FRONT_X_EARLY, "front at 0.4 s (m)", 1.0, 3)
+        .headline(FRONT_RMS_ERROR, "front, rms error (m)", 1.0, 3)
+        .headline(ARRIVAL_ERROR, "arrival, error (ms)", 1e3, 1)
+        .headline(ENERGY_RATIO, "energy at 0.4 s (–)", 1.0, 4)
+        .headline(ENERGY_RATIO_2S, "energy at 2 s (–)", 1.0, 3)
+        .headline(MOTION_RATIO_2S, "without stress work (–)", 1.0, 3)
+        .headline(PRESSURE_RMS, "p rms at 0.4 s (kPa)", 1e-3, 1)
+        .headline(CHECKERBOARD_RMS, "p − Πp rms (kPa)", 1e-3, 2)
+        .headline(TENSION_SHARE, "in tension (%)", 100.0, 1)
+        .headline(COVERED_EARLY, "covered at 0.4 s (m²)", 1.0, 2)
+        .headline(WALL_IMPULSE, "wall impulse (kN s/m)", 1e-3, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at 0.4 s (–)", 1.0, 4)
+        .quantity(error(FRONT_RMS_ERROR, "rms error of the front (m)"))
+        .quantity(error(ARRIVAL_ERROR, "error of the arrival (s)"))
+        .quantity(value(WALL_IMPULSE, "impulse on the wall (N s/m)"))
+        .quantity(value(CENTRE_X_MEAN, "mean centre of mass (m)"))
+        .sweep(Sweep::of(CFL, "CFL number (–)").logarithmic())
+        .sweep(Sweep::of(PIC_RATE, "PIC share per unit of time (1/s)").logarithmic())
+        .watched(&["front", "energy", "front_force", "pressure_rms"])
+        .field(FieldView::at(0.3, ["pressure", "pressure after 0.3 s (Pa)"], (-1e5, 1e5), [(0.0, 5.0), (0.0, 2.0)]))
+        .sketch(Sketch::of("Water four metres long and two metres deep stands between the left wall of a tank and a gate; the tank is six metres long, open above, its floor and walls smooth. The gate is removed at once.")
             .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
             .held([TANK, 0.0], [0.0, 0.0])
             .held([0.0, 0.0], [0.0, 3.0])
@@ -159,14 +141,12 @@ pub(super) fn case() -> Case {
             .length([0.0, -1.0], [TANK, -1.0], "6 m")
             .length([-0.5, 0.0], [-0.5, DEPTH], "2 m")
             .note([0.5 * LENGTH, 0.5 * DEPTH], "water")
-            .note([LENGTH + 0.4, DEPTH + 0.2], "gate"),
-        cost: Box::new(|spec| remedy_cost(spec, [1.0, 1.4, 1.4, 1.4, 1.9]) / spec.level.h.powi(3)),
-        ladder: &[LADDER],
-        pictures: figures::draw,
-        tables: tables(),
-        breaks_down: checks::breaks_down,
-        ..Case::of::<2, run::Dam>("dam-break", "Dam break", ALL).planned(plan())
-    }
+            .note([LENGTH + 0.4, DEPTH + 0.2], "gate"))
+        .cost(|spec| remedy_cost(spec, [1.0, 1.4, 1.4, 1.4, 1.9]) / spec.level.h.powi(3))
+        .ladder(&[LADDER])
+        .pictures(figures::draw)
+        .tables(tables())
+        .breaks_down(checks::breaks_down)
 }
 
 fn plan() -> Plan {

@@ -93,42 +93,36 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
-                      implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
-                      the paper's Newmark rule gains it. Explicit steps with every transfer, head on, oblique, grazing, and past each other.",
-        references: vec![
-            "Conservation of mass, momentum and energy, and the symmetry of the scene.".to_owned(),
-            "Exact: free flight, until a function sees both discs.".to_owned(),
-        ],
-        limits: &[
-            "Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.",
-            "No exact solution of the collision: energy and momentum are judged, not the motion.",
-        ],
-        wanted: vec![
-            Wanted::new("flight", "velocity and volume of every particle before the impact", "free-flight")
-                .missed_by("touches-through-the-grid"),
-            Wanted::new("rebound", "relative velocity after the impact", "restitution").where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4),
-            headline(ENERGY_LOSS, "loss (%)", 100.0, 4),
-            headline(ENERGY_END, "end (%)", 100.0, 4),
-            headline(ENERGY_ERROR_ACCUMULATED, "accumulated (%)", 100.0, 4),
-            headline(LUMPING_LOSS, "lumped mass took (%)", 100.0, 4),
-            headline(MOMENTUM_ERROR, "momentum error (–)", 1.0, 14),
-            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum error (–)", 1.0, 6),
-            headline(RESTITUTION, "parting over meeting speed (–)", 1.0, 3),
-            headline(DEFLECTION, "velocity changed by (–)", 1.0, 3),
-            headline(FREE_UNTIL, "free until (s)", 1.0, 1),
-        ],
-        watched: &["energy_change", "distance"],
-        sketch: sketch(),
-        cost: Box::new(cost),
-        pictures,
-        tables: tables(),
-        breaks_down: |r| match r.scheme() {
+    Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL)
+        .planned(plan())
+        .described("Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
+            implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
+            the paper's Newmark rule gains it. Explicit steps with every transfer, head on, oblique, grazing, and past each other.")
+        .reference("Conservation of mass, momentum and energy, and the symmetry of the scene.")
+        .reference("Exact: free flight, until a function sees both discs.")
+        .limit("Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.")
+        .limit("No exact solution of the collision: energy and momentum are judged, not the motion.")
+        .wanted("flight", "velocity and volume of every particle before the impact", "free-flight")
+        .missed_by("touches-through-the-grid")
+        .wanted("rebound", "relative velocity after the impact", "restitution")
+        .where_referenced()
+        .checks(checks())
+        .headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4)
+        .headline(ENERGY_LOSS, "loss (%)", 100.0, 4)
+        .headline(ENERGY_END, "end (%)", 100.0, 4)
+        .headline(ENERGY_ERROR_ACCUMULATED, "accumulated (%)", 100.0, 4)
+        .headline(LUMPING_LOSS, "lumped mass took (%)", 100.0, 4)
+        .headline(MOMENTUM_ERROR, "momentum error (–)", 1.0, 14)
+        .headline(ANGULAR_MOMENTUM_ERROR, "angular momentum error (–)", 1.0, 6)
+        .headline(RESTITUTION, "parting over meeting speed (–)", 1.0, 3)
+        .headline(DEFLECTION, "velocity changed by (–)", 1.0, 3)
+        .headline(FREE_UNTIL, "free until (s)", 1.0, 1)
+        .watched(&["energy_change", "distance"])
+        .sketch(sketch())
+        .cost(cost)
+        .pictures(pictures)
+        .tables(tables())
+        .breaks_down(|r| match r.scheme() {
             Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => {
                 Some("a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead")
             }
@@ -136,9 +130,7 @@ pub(super) fn case() -> Case {
                 Some("a consistent mass is singular where a function sees few particles")
             }
             _ => None,
-        },
-        ..Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL).planned(plan())
-    }
+        })
 }
 
 fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {

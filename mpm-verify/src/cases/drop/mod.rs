@@ -56,33 +56,30 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
-                      closes, friction is Coulomb's, over the barrier's stiffness and the step.",
-        references: vec!["Conservation of momentum and energy, Coulomb's law.".to_owned()],
-        limits: &["No exact solution of the bounce: what is kept and bounded is judged."],
-        wanted: vec![Wanted::new("friction", "impulse along the floor over that across it", "slides")],
-        checks: checks(),
-        headlines: vec![
-            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
-            headline(ENERGY_END, "at the end (–)", 1.0, 4),
-            headline(LEAST_GAP, "least gap (–)", 1.0, 3),
-            headline(FRICTION_RATIO, "friction over μN (–)", 1.0, 3),
-            headline(RESTITUTION, "restitution (–)", 1.0, 3),
-            headline(SPIN, "spin (–)", 1.0, 3),
-        ],
-        watched: &["kinetic_energy", "force_across"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
-        tables: tables(),
-        breaks_down: |r| {
+    Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
+        .planned(plan())
+        .described("An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
+            closes, friction is Coulomb's, over the barrier's stiffness and the step.")
+        .reference("Conservation of momentum and energy, Coulomb's law.")
+        .limit("No exact solution of the bounce: what is kept and bounded is judged.")
+        .wanted("friction", "impulse along the floor over that across it", "slides")
+        .checks(checks())
+        .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
+        .headline(ENERGY_END, "at the end (–)", 1.0, 4)
+        .headline(LEAST_GAP, "least gap (–)", 1.0, 3)
+        .headline(FRICTION_RATIO, "friction over μN (–)", 1.0, 3)
+        .headline(RESTITUTION, "restitution (–)", 1.0, 3)
+        .headline(SPIN, "spin (–)", 1.0, 3)
+        .watched(&["kinetic_energy", "force_across"])
+        .sketch(sketch())
+        .cost(|spec| 1e-3 * spec.level.h.powi(-2))
+        .tables(tables())
+        .breaks_down(|r| {
             let soft = Setup::<Drop>::number_of(r, |b| b.stiffness) < 0.1;
             let explicit = r.scheme().rule().is_none();
             (soft && explicit)
                 .then_some("a barrier that a step passes: the gap at its end is closed, and the program says so")
-        },
-        ..Case::of::<2, run::Falling>("drop", "A block bounces", ALL).planned(plan())
-    }
+        })
 }
 
 fn plan() -> Plan {

@@ -122,38 +122,31 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
-                      of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
-                      strength it can't: what fails is progressive, and depends on the cells.",
-        references: vec![
-            "Limit analysis (docs/exact.md): arcs, γH/c = 6.078 whole and 5.537 cut, at most 1.2 % above finite-element bounds; a foot that slides".to_owned(),
-            "Equilibrium, momentum and energy.".to_owned(),
-        ],
-        limits: &[
-            "Softening without a length: shear bands are as wide as the cells allow, and the run-out differs from level to level.",
-            "The paper gives neither the friction of its base nor the length of its crest.",
-            "Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.",
-        ],
-        wanted: vec![
-            Wanted::new("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3),
-            headline(FACTOR_CUT, "cut (–)", 1.0, 3),
-            headline(GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3),
-            headline(STANDS_UNCUT, "stands whole", 1.0, 0),
-            headline(STANDS_CUT, "cut", 1.0, 0),
-            headline(RUNOUT_END, "run-out (m)", 1.0, 3),
-            headline(CREST_DROP, "crest sinks (m)", 1.0, 3),
-            headline(BAND_WIDTH, "band (m)", 1.0, 3),
-            headline(KINETIC_END, "E_kin at the end (%)", 100.0, 2),
-            headline(FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1),
-            headline(BALANCE_ERROR, "energy off by (%)", 100.0, 2),
-        ],
-        watched: &["moved", "front"],
-        sketch: Sketch::of(
+    Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL)
+        .planned(plan())
+        .described("A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
+            of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
+            strength it can't: what fails is progressive, and depends on the cells.")
+        .reference("Limit analysis (docs/exact.md): arcs, γH/c = 6.078 whole and 5.537 cut, at most 1.2 % above finite-element bounds; a foot that slides")
+        .reference("Equilibrium, momentum and energy.")
+        .limit("Softening without a length: shear bands are as wide as the cells allow, and the run-out differs from level to level.")
+        .limit("The paper gives neither the friction of its base nor the length of its crest.")
+        .limit("Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.")
+        .wanted("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit")
+        .checks(checks())
+        .headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3)
+        .headline(FACTOR_CUT, "cut (–)", 1.0, 3)
+        .headline(GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3)
+        .headline(STANDS_UNCUT, "stands whole", 1.0, 0)
+        .headline(STANDS_CUT, "cut", 1.0, 0)
+        .headline(RUNOUT_END, "run-out (m)", 1.0, 3)
+        .headline(CREST_DROP, "crest sinks (m)", 1.0, 3)
+        .headline(BAND_WIDTH, "band (m)", 1.0, 3)
+        .headline(KINETIC_END, "E_kin at the end (%)", 100.0, 2)
+        .headline(FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1)
+        .headline(BALANCE_ERROR, "energy off by (%)", 100.0, 2)
+        .watched(&["moved", "front"])
+        .sketch(Sketch::of(
             "A slope of clay one metre high with a face at 45° and a crest of 1.5 m, up to rollers that let it \
              move up and down. The wedge of the lowest 0.2 m at its toe is taken away.",
         )
@@ -165,12 +158,10 @@ pub(super) fn case() -> Case {
         .length([1.5, 1.12], [2.5, 1.12], "1 m")
         .length([-0.12, 0.0], [-0.12, 1.0], "1 m")
         .note([0.9, 0.5], "clay")
-        .note([2.85, 0.2], "taken away"),
-        cost: Box::new(cost),
-        pictures,
-        tables: vec![equilibria(), collapses(), balances()],
-        ..Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL).planned(plan())
-    }
+        .note([2.85, 0.2], "taken away"))
+        .cost(cost)
+        .pictures(pictures)
+        .tables(vec![equilibria(), collapses(), balances()])
 }
 
 /// Cost of the steps and of a factorisation.

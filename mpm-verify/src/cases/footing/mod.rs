@@ -110,51 +110,40 @@ pub(super) fn case() -> Case {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
-    Case {
-        description: "A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
-                      (plane strain, ν = 0.49). Its bearing capacity is (2 + π) s_u (Prandtl). Standard MPM locks and finds \
-                      no limit load; the F̄ remedies do, the recursive one depends on the rate.",
-        references: reference::describe(),
-        limits: &[
-            "A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, with quadratic splines B.",
-            "The footing's nodes stay where they are: strokes are small against a cell.",
-            "The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.",
-            "At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).",
-        ],
-        wanted: vec![
-            Wanted::new("limit-load", "load on the footing at the end", "prandtl fem-plateau")
-                .missed_by("no-limit-load locked soft-by-diffusion"),
-            Wanted::new(
-                "pressure",
-                "mean stress at five points at the end",
-                "mean-stress smooth-pressure smooth-squares",
-            )
-            .missed_by("no-limit-load locked checkerboard soft-by-diffusion"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(NC_B, "N_c by B (–)", 1.0, 3),
-            headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3),
-            headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3),
-            headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2),
-            headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0),
-            headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2),
-            headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
-            headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-        ],
-        quantities: vec![error(PRANDTL_ERROR, "relative error of the contact pressure")],
-        sweeps: vec![Sweep::of(PENETRATION_RATE, "penetration rate (m/s)").logarithmic()],
-        watched: &["pressure_over_strength", "jacobian_max"],
-        field: FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.004), [(0.0, 2.0), (-1.5, 0.0)]),
-        sketch: sketch(),
-        cost: Box::new(cost),
-        own_runs,
-        pictures: figures::draw,
-        tables: tables(),
-        ..Case::of::<2, Pressing>("footing", "Strip footing", &metrics).planned(plan())
-    }
+    Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
+        .planned(plan())
+        .described("A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
+            (plane strain, ν = 0.49). Its bearing capacity is (2 + π) s_u (Prandtl). Standard MPM locks and finds \
+            no limit load; the F̄ remedies do, the recursive one depends on the rate.")
+        .references(reference::describe())
+        .limit("A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, with quadratic splines B.")
+        .limit("The footing's nodes stay where they are: strokes are small against a cell.")
+        .limit("The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.")
+        .limit("At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).")
+        .wanted("limit-load", "load on the footing at the end", "prandtl fem-plateau")
+        .missed_by("no-limit-load locked soft-by-diffusion")
+        .wanted("pressure", "mean stress at five points at the end", "mean-stress smooth-pressure smooth-squares")
+        .missed_by("no-limit-load locked checkerboard soft-by-diffusion")
+        .checks(checks::checks())
+        .headline(NC_B, "N_c by B (–)", 1.0, 3)
+        .headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3)
+        .headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3)
+        .headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2)
+        .headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0)
+        .headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2)
+        .headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2)
+        .headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .quantity(error(PRANDTL_ERROR, "relative error of the contact pressure"))
+        .sweep(Sweep::of(PENETRATION_RATE, "penetration rate (m/s)").logarithmic())
+        .watched(&["pressure_over_strength", "jacobian_max"])
+        .field(FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.004), [(0.0, 2.0), (-1.5, 0.0)]))
+        .sketch(sketch())
+        .cost(cost)
+        .own_runs(own_runs)
+        .pictures(figures::draw)
+        .tables(tables())
 }
 
 /// A strength beyond reach: the ground stays elastic.

@@ -107,19 +107,6 @@ metrics! { ALL:
         "difference of the outermost particle from that in plane strain at the end";
 }
 
-const LIMITS: &[&str] = &[
-    "Softening is local: shear bands are as thin as the cells allow, and what flows after the onset depends on their size.",
-    "The reduced slope stands at a factor of safety of one: which scheme and level tips is part of the answer.",
-    "The clay is undrained; nothing drains, and nothing cracks. Its averaged volume is kept; that of single particles in the flow is not (J).",
-];
-
-fn references() -> Vec<String> {
-    vec![
-        "Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up".to_owned(),
-        "Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction".to_owned(),
-    ]
-}
-
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {
     let sweep = remedy_cost(spec, [1.0, 1.2, 1.2, 1.2, 1.7]);
     let short = spec.set.iter().any(|set| set.starts_with("duration="));
@@ -134,41 +121,38 @@ fn case_of(
     parameters: Vec<Parameter>,
     begin: Begin,
 ) -> Case {
-    Case {
-        description,
-        references: references(),
-        limits: LIMITS,
-        wanted: vec![
-            Wanted::new("geostatic-stress", "vertical stress far from the face after the gravity stage", "overburden")
-                .missed_by("locked-stress"),
-            Wanted::new("stability", "whether the slope fails", "stands fails").missed_by("locked").where_referenced(),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),
-            headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2),
-            headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2),
-            headline(SETTLEMENT_END, "settlement (m)", 1.0, 2),
-            headline(FAILED_SHARE_END, "failed (%)", 100.0, 1),
-            headline(FAILURE_TIME, "fails at (s)", 1.0, 2),
-            headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2),
-            headline(SHEAR_BANDS_END, "shear bands", 1.0, 0),
-            headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4),
-            headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
-        ],
-        quantities: vec![value(RUNOUT_2_5S, "run-out at 2.5 s (m)")],
-        sweeps: vec![
-            Sweep::of(REDUCTION, "reduction of the peak strength (–)"),
-            Sweep::of(slope::CFL, "CFL number (–)").logarithmic(),
-        ],
-        watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
-        sketch: slope::sketch(size),
-        cost: Box::new(move |spec| cost(spec, dimension)),
-        pictures: figures::draw,
-        breaks_down: checks::breaks_down,
-        ..Case::begun_by(name, title, ALL, parameters, begin)
-    }
+    Case::begun_by(name, title, ALL, parameters, begin)
+        .described(description)
+        .reference("Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up")
+        .reference("Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction")
+        .limit("Softening is local: shear bands are as thin as the cells allow, and what flows after the onset depends on their size.")
+        .limit("The reduced slope stands at a factor of safety of one: which scheme and level tips is part of the answer.")
+        .limit("The clay is undrained; nothing drains, and nothing cracks. Its averaged volume is kept; that of single particles in the flow is not (J).")
+        .wanted("geostatic-stress", "vertical stress far from the face after the gravity stage", "overburden")
+        .missed_by("locked-stress")
+        .wanted("stability", "whether the slope fails", "stands fails")
+        .missed_by("locked")
+        .where_referenced()
+        .checks(checks::checks())
+        .headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2)
+        .headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2)
+        .headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2)
+        .headline(SETTLEMENT_END, "settlement (m)", 1.0, 2)
+        .headline(FAILED_SHARE_END, "failed (%)", 100.0, 1)
+        .headline(FAILURE_TIME, "fails at (s)", 1.0, 2)
+        .headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2)
+        .headline(SHEAR_BANDS_END, "shear bands", 1.0, 0)
+        .headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4)
+        .headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4)
+        .quantity(value(RUNOUT_2_5S, "run-out at 2.5 s (m)"))
+        .sweep(Sweep::of(REDUCTION, "reduction of the peak strength (–)"))
+        .sweep(Sweep::of(slope::CFL, "CFL number (–)").logarithmic())
+        .watched(&["toe", "settlement", "kinetic_energy", "failed_share"])
+        .sketch(slope::sketch(size))
+        .cost(move |spec| cost(spec, dimension))
+        .pictures(figures::draw)
+        .breaks_down(checks::breaks_down)
 }
 
 /// The landslide in plane strain.
@@ -183,16 +167,11 @@ pub(super) fn plane_case() -> Case {
     let in_plane = |p: &Parameter| p.name != "width";
     let parameters = Landslide::list().into_iter().filter(in_plane).collect();
     let begin = Box::new(problem::begin::<2, Slide<2>>);
-    Case {
-        field: FieldView::at(
-            1.0,
-            ["plastic_strain", "plastic strain after 1 s (-)"],
-            (0.0, 0.004),
-            [(0.0, 16.0), (0.0, 5.0)],
-        ),
-        tables: tables::in_plane(),
-        ..case_of(TEXTS, 2, parameters, begin).planned(plan_2d())
-    }
+    let strain = ["plastic_strain", "plastic strain after 1 s (-)"];
+    case_of(TEXTS, 2, parameters, begin)
+        .planned(plan_2d())
+        .field(FieldView::at(1.0, strain, (0.0, 0.004), [(0.0, 16.0), (0.0, 5.0)]))
+        .tables(tables::in_plane())
 }
 
 /// The landslide in three dimensions.
@@ -205,7 +184,7 @@ pub(super) fn case() -> Case {
         "5 m, 5 m wide",
     ];
     let begin: Begin = Box::new(|spec, values| Ok(Box::new(Beside::new(spec, values)?)));
-    Case { tables: vec![tables::in_space()], ..case_of(TEXTS, 3, Landslide::list(), begin).planned(plan_3d()) }
+    case_of(TEXTS, 3, Landslide::list(), begin).planned(plan_3d()).tables(vec![tables::in_space()])
 }
 
 fn plan_2d() -> Plan {

@@ -51,52 +51,40 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
-                      in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
-                      difference equations of its cells.",
-        references: vec![
-            "Mandel's series, derived on its page, tested against its equations and an independent integration in time."
-                .to_owned(),
-            "The difference equations by elimination, whose closed form in modes is tested against that.".to_owned(),
-        ],
-        limits: &[
-            "Small strain on a fixed grid, and an answer that does not depend on the height.",
-            "Two particles a cell and axis: with more the difference equations are others.",
-        ],
-        wanted: vec![
-            Wanted::new("pressure", "pressure in the middle over time", "centre-pressure peak"),
-            Wanted::new("motion", "paths of plate and side", "settlement bulge"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3),
-            headline(CENTRE_PRESSURE_ERROR_SPACE, "of space alone (%)", 100.0, 3),
-            headline(PEAK, "peak (F/2a)", 1.0, 4),
-            headline(PEAK_TIME, "its T", 1.0, 4),
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4),
-            headline(EQUATIONS_DISTANCE, "from the difference equations (–)", 1.0, 7),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"),
-            error(CENTRE_PRESSURE_ERROR, "error of p in the middle"),
-        ],
-        watched: &["centre_pressure", "settlement"],
-        sketch: Sketch::of("A quarter of a slab between rigid plates, drained at its side.")
+    Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL)
+        .planned(plan())
+        .described("A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
+            in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
+            difference equations of its cells.")
+        .reference("Mandel's series, derived on its page, tested against its equations and an independent integration in time.")
+        .reference("The difference equations by elimination, whose closed form in modes is tested against that.")
+        .limit("Small strain on a fixed grid, and an answer that does not depend on the height.")
+        .limit("Two particles a cell and axis: with more the difference equations are others.")
+        .wanted("pressure", "pressure in the middle over time", "centre-pressure peak")
+        .wanted("motion", "paths of plate and side", "settlement bulge")
+        .checks(checks())
+        .headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3)
+        .headline(CENTRE_PRESSURE_ERROR_SPACE, "of space alone (%)", 100.0, 3)
+        .headline(PEAK, "peak (F/2a)", 1.0, 4)
+        .headline(PEAK_TIME, "its T", 1.0, 4)
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4)
+        .headline(EQUATIONS_DISTANCE, "from the difference equations (–)", 1.0, 7)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"))
+        .quantity(error(CENTRE_PRESSURE_ERROR, "error of p in the middle"))
+        .watched(&["centre_pressure", "settlement"])
+        .sketch(Sketch::of("A quarter of a slab between rigid plates, drained at its side.")
             .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]])
             .held([0.0, 0.0], [1.0, 0.0])
             .held([0.0, 0.0], [0.0, 0.25])
             .length([0.0, -0.12], [1.0, -0.12], "a = 1 m")
             .note([1.12, 0.12], "drained")
             .note([0.5, 0.5], "plate, F")
-            .loads((0..5).map(|k| 0.1 + 0.2 * f64::from(k)), [0.42, 0.27]),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        pictures,
-        tables: tables(),
-        ..Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL).planned(plan())
-    }
+            .loads((0..5).map(|k| 0.1 + 0.2 * f64::from(k)), [0.42, 0.27]))
+        .cost(|spec| 1e-6 * spec.level.h.powi(-3))
+        .pictures(pictures)
+        .tables(tables())
 }
 
 fn plan() -> Plan {

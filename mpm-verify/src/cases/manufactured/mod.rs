@@ -81,25 +81,20 @@ impl<K: Known> ParameterSet for Own<K> {
     }
 }
 
-/// A case of this motion in `D` dimensions, by name, title and description, with the levels, errors and headlines that serve most.
+/// A case of this motion in `D` dimensions, by name, title and description, with the errors and headlines that serve most.
 pub(super) fn known_case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case
 where
     Motion<D, K>: Problem<D, Parameters = Own<K>>,
 {
-    Case {
-        description,
-        levels: metre_levels(),
-        wanted: vec![
-            Wanted::new("displacement", "rms error of u at the end", "error-bound")
-                .missed_by("motion-lost beyond-bound"),
-        ],
-        headlines: headlines(),
-        quantities: ERRORS.to_vec(),
-        watched: &["displacement_l2", "log_jacobian_gap_rms"],
-        sketch: sketch::sketch::<K>(),
-        cost: Box::new(scenario::cost::<K>),
-        ..Case::of::<D, Motion<D, K>>(name, title, METRICS)
-    }
+    Case::of::<D, Motion<D, K>>(name, title, METRICS)
+        .described(description)
+        .wanted("displacement", "rms error of u at the end", "error-bound")
+        .missed_by("motion-lost beyond-bound")
+        .headlines(headlines())
+        .quantities(ERRORS.to_vec())
+        .watched(&["displacement_l2", "log_jacobian_gap_rms"])
+        .sketch(sketch::sketch::<K>())
+        .cost(scenario::cost::<K>)
 }
 
 /// Begins a run in as many dimensions as the exact solution of its parameters has.

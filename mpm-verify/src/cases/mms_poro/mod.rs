@@ -74,51 +74,40 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
-                      that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
-                      displacement and the pressure, for each space of the pressure, with and without crossing of cells.",
-        references: vec![
-            "Exact solution: derived on dual numbers; its balances are tested by eighth-order differences of a stress and a flux \
-             that are written otherwise.".to_owned(),
-        ],
-        limits: &[
-            "The body fills its grid: no cell is cut, and no surface moves.",
-            "Linear functions stall once particles have moved, as elsewhere.",
-        ],
-        wanted: vec![
-            Wanted::new("fields", "rms errors of u and p at the end", "error-bound"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7),
-            headline(PRESSURE_L2, "error of p (%)", 100.0, 3),
-            headline(STRESS_L2, "σ′ rms error (Pa)", 1.0, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0),
-            error(PRESSURE_L2, "rms error of p").of_order(2.0),
-            error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0),
-        ],
-        watched: &["displacement_l2", "pressure_l2"],
-        sketch: Sketch::of("A body full of water that slides along its sides but doesn't leave them, drained at its top.")
+    Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
+        .planned(plan())
+        .described("A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
+            that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
+            displacement and the pressure, for each space of the pressure, with and without crossing of cells.")
+        .reference("Exact solution: derived on dual numbers; its balances are tested by eighth-order differences of a stress and a flux \
+         that are written otherwise.")
+        .limit("The body fills its grid: no cell is cut, and no surface moves.")
+        .limit("Linear functions stall once particles have moved, as elsewhere.")
+        .wanted("fields", "rms errors of u and p at the end", "error-bound")
+        .checks(checks::checks())
+        .headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7)
+        .headline(PRESSURE_L2, "error of p (%)", 100.0, 3)
+        .headline(STRESS_L2, "σ′ rms error (Pa)", 1.0, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0))
+        .quantity(error(PRESSURE_L2, "rms error of p").of_order(2.0))
+        .quantity(error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0))
+        .watched(&["displacement_l2", "pressure_l2"])
+        .sketch(Sketch::of("A body full of water that slides along its sides but doesn't leave them, drained at its top.")
             .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
             .held([1.0, 0.0], [0.0, 0.0])
             .held([0.0, 0.0], [0.0, 1.0])
             .held([0.0, 1.0], [1.0, 1.0])
             .held([1.0, 1.0], [1.0, 0.0])
             .length([0.0, -0.15], [1.0, -0.15], "1 m")
-            .note([0.5, 1.12], "p = 0"),
-        cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
-        begin: Box::new(|spec, parameters| match Motion::read(parameters)?.dimension {
+            .note([0.5, 1.12], "p = 0"))
+        .cost(|spec| 1e-4 * spec.level.h.powi(-3))
+        .begun(|spec, parameters| match Motion::read(parameters)?.dimension {
             1 => crate::problem::begin::<1, Moving>(spec, parameters),
             _ => crate::problem::begin::<2, Moving>(spec, parameters),
-        }),
-        tables: tables(),
-        ..Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL).planned(plan())
-    }
+        })
+        .tables(tables())
 }
 
 fn plan() -> Plan {

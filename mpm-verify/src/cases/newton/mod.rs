@@ -56,32 +56,25 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
-                      load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.",
-        references: vec![
-            "Exact: uniaxial strain of a Hencky body under its own weight, elastic or yielding, src/cases/newton/exact.rs."
-                .to_owned(),
-        ],
-        limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
-        wanted: vec![
-            Wanted::new("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is").missed_by("moved-quadrature hair-cut"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CARRIED, "load carried (%)", 100.0, 1),
-            headline(BEARABLE, "that there is (%)", 100.0, 1),
-            headline(EQUILIBRIUM_ERROR, "error (–)", 1.0, 5),
-            headline(BOUND, "bound (–)", 1.0, 5),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(PARTS, "most parts of a step", 1.0, 0),
-        ],
-        watched: &["equilibrium_error", "newton_iterations"],
-        sketch: sketch(),
-        cost: Box::new(|_| 0.05),
-        tables: tables(),
-        ..Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL).planned(plan())
-    }
+    Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL)
+        .planned(plan())
+        .described("A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
+            load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.")
+        .reference("Exact: uniaxial strain of a Hencky body under its own weight, elastic or yielding, src/cases/newton/exact.rs.")
+        .limit("Uniaxial strain, one law, no stabilisation of cut cells.")
+        .wanted("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is")
+        .missed_by("moved-quadrature hair-cut")
+        .checks(checks())
+        .headline(CARRIED, "load carried (%)", 100.0, 1)
+        .headline(BEARABLE, "that there is (%)", 100.0, 1)
+        .headline(EQUILIBRIUM_ERROR, "error (–)", 1.0, 5)
+        .headline(BOUND, "bound (–)", 1.0, 5)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(PARTS, "most parts of a step", 1.0, 0)
+        .watched(&["equilibrium_error", "newton_iterations"])
+        .sketch(sketch())
+        .cost(|_| 0.05)
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -130,7 +130,7 @@ fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin)
     });
     Case {
         description: "What a scene file describes.",
-        limits: &["Nothing is known of the answer, so nothing is judged."],
+        limits: vec!["Nothing is known of the answer, so nothing is judged."],
         levels: vec![level],
         plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
         checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },

@@ -52,37 +52,31 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "The slope of the landslide, without softening, under its weight. Its strength is divided by factors between which it first fails, \
-                      found by bisection; limit analysis gives the factor. Standard MPM locks and stands where it should fail.",
-        references: vec!["Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base at the level of the toe".to_owned()],
-        limits: &[
-            "Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.",
-            "A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.",
-        ],
-        wanted: vec![
-            Wanted::new("factor-of-safety", "factor of safety against limit analysis", "limit-load").missed_by("locked"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3),
-            headline(STANDS_AT, "stands at", 1.0, 3),
-            headline(FAILS_AT, "fails at", 1.0, 3),
-            headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-        ],
-        quantities: vec![error(FACTOR_ERROR, "relative error of the factor").known_to(
-            (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
-        )],
-        watched: &["factor", "moved"],
-        sketch: slope::sketch("5 m"),
-        cost: Box::new(|spec| {
+    Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL)
+        .planned(plan())
+        .described("The slope of the landslide, without softening, under its weight. Its strength is divided by factors between which it first fails, \
+            found by bisection; limit analysis gives the factor. Standard MPM locks and stands where it should fail.")
+        .reference("Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base at the level of the toe")
+        .limit("Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.")
+        .limit("A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.")
+        .wanted("factor-of-safety", "factor of safety against limit analysis", "limit-load")
+        .missed_by("locked")
+        .checks(checks())
+        .headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3)
+        .headline(STANDS_AT, "stands at", 1.0, 3)
+        .headline(FAILS_AT, "fails at", 1.0, 3)
+        .headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .quantity(error(FACTOR_ERROR, "relative error of the factor").known_to(
+        (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
+    ))
+        .watched(&["factor", "moved"])
+        .sketch(slope::sketch("5 m"))
+        .cost(|spec| {
             let solver = if spec.scheme.rule().is_some() { 0.05 } else { 1.0 };
             solver * spec.level.h.powi(-3)
-        }),
-        tables: tables(),
-        ..Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL).planned(plan())
-    }
+        })
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -37,28 +37,24 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
-                      where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.",
-        references: vec![
-            "Exact: the vortex of mms-vortex-box, turned by a hundredth of a radian.".to_owned(),
-            "The error of random points and what it does to a stiffness, docs/sparse.md.".to_owned(),
-        ],
-        limits: &[
-            "Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.",
-            "The motion ends within the box: half-empty cells at a free face are in thin.",
-        ],
-        wanted: vec![Wanted::new("displacement", "rms error of u", "error-bound").missed_by("one-a-cell beyond-bound")],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2),
-            headline(ERROR_HIGH, "nine in ten below (%)", 100.0, 2),
-            headline(STRESS_MEDIAN, "error of σ (%)", 100.0, 1),
-            headline(SOFTENING, "softening (%)", 100.0, 2),
-            headline(BROKEN, "break down (%)", 100.0, 0),
-        ],
-        watched: &["displacement_error"],
-        sketch: Sketch::of("A square of 1 m between slippery walls, whose middle turns.")
+    case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
+        .planned(plan())
+        .described("A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
+            where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.")
+        .reference("Exact: the vortex of mms-vortex-box, turned by a hundredth of a radian.")
+        .reference("The error of random points and what it does to a stiffness, docs/sparse.md.")
+        .limit("Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.")
+        .limit("The motion ends within the box: half-empty cells at a free face are in thin.")
+        .wanted("displacement", "rms error of u", "error-bound")
+        .missed_by("one-a-cell beyond-bound")
+        .checks(checks::checks())
+        .headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2)
+        .headline(ERROR_HIGH, "nine in ten below (%)", 100.0, 2)
+        .headline(STRESS_MEDIAN, "error of σ (%)", 100.0, 1)
+        .headline(SOFTENING, "softening (%)", 100.0, 2)
+        .headline(BROKEN, "break down (%)", 100.0, 0)
+        .watched(&["displacement_error"])
+        .sketch(Sketch::of("A square of 1 m between slippery walls, whose middle turns.")
             .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
             .held([0.0, 0.0], [1.0, 0.0])
             .held([1.0, 0.0], [1.0, 1.0])
@@ -66,11 +62,9 @@ pub(super) fn case() -> Case {
             .held([0.0, 1.0], [0.0, 0.0])
             .load([0.75, 0.4], [0.75, 0.6])
             .load([0.25, 0.6], [0.25, 0.4])
-            .length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
-        tables: tables(),
-        ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL).planned(plan())
-    }
+            .length([-0.12, 0.0], [-0.12, 1.0], "1 m"))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-2))
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -50,39 +50,30 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
-                      energy and radius of every basis and transfer.",
-        references: vec![
-            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).".to_owned(),
-            "Conservation of momentum, angular momentum and energy.".to_owned(),
-        ],
-        limits: &[
-            "The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.",
-            "What FLIP takes of the angular momentum follows from no theory here: it is in the table.",
-        ],
-        wanted: vec![
-            Wanted::new("rotation", "angular momentum that is left", "affine-parts-take-their-share")
-                .missed_by("flip-spins-down filters-spin-down"),
-            Wanted::new("stretch", "mean stretch of the last half", "stretch")
-                .missed_by("gimp-swells musl-swells")
-                .where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6),
-            headline(ENERGY_END, "energy at the end (%)", 100.0, 2),
-            headline(ENERGY_GAIN, "gain (%)", 100.0, 3),
-            headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1),
-            headline(PHASE_ERROR, "angle off by (%)", 100.0, 2),
-        ],
-        watched: &["angular_momentum", "rms_radius"],
-        sketch: sketch(),
-        cost: Box::new(cost),
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, Spin>("spin", "A disc that turns", ALL).planned(plan())
-    }
+    Case::of::<2, Spin>("spin", "A disc that turns", ALL)
+        .planned(plan())
+        .described("A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
+            energy and radius of every basis and transfer.")
+        .reference("The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).")
+        .reference("Conservation of momentum, angular momentum and energy.")
+        .limit("The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.")
+        .limit("What FLIP takes of the angular momentum follows from no theory here: it is in the table.")
+        .wanted("rotation", "angular momentum that is left", "affine-parts-take-their-share")
+        .missed_by("flip-spins-down filters-spin-down")
+        .wanted("stretch", "mean stretch of the last half", "stretch")
+        .missed_by("gimp-swells musl-swells")
+        .where_referenced()
+        .checks(checks())
+        .headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6)
+        .headline(ENERGY_END, "energy at the end (%)", 100.0, 2)
+        .headline(ENERGY_GAIN, "gain (%)", 100.0, 3)
+        .headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1)
+        .headline(PHASE_ERROR, "angle off by (%)", 100.0, 2)
+        .watched(&["angular_momentum", "rms_radius"])
+        .sketch(sketch())
+        .cost(cost)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// The reason why a disc is known to break down.

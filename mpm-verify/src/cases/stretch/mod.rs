@@ -51,42 +51,35 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
-                      the part between them is free. Where does it tear, where is its step too long, and what says so?",
-        references: vec![
-            "Exact: the homogeneous motion and the law's stress in it.".to_owned(),
-            "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
-        ],
-        limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
-        wanted: vec![
-            Wanted::new("stress", "mean stress of the stretched or crushed body", "stress-noise crushed-whole")
-                .missed_by("jumps tears-early recursion-loses"),
-            Wanted::new("end", "stretch at which the body tears or the step is too long", "tears-no-earlier stops")
-                .missed_by("jumps tears-early")
-                .where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(TEAR_STRETCH, "tears at (–)", 1.0, 2),
-            headline(UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
-            headline(PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
-            headline(STOPPED_STRETCH, "stops at (–)", 1.0, 2),
-            headline(PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2),
-            headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
-            headline(PREDICTED_NOISE, "predicted (%)", 100.0, 1),
-            headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
-        ],
-        watched: &["stress_kept", "stress_error"],
-        sketch: sketch(),
-        cost: Box::new(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 }),
-        begin: Box::new(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
+    Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL)
+        .planned(plan())
+        .described("The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
+            the part between them is free. Where does it tear, where is its step too long, and what says so?")
+        .reference("Exact: the homogeneous motion and the law's stress in it.")
+        .reference("Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.")
+        .limit("One law, undeformed domains, one lattice of particles; in the plane crushed only.")
+        .wanted("stress", "mean stress of the stretched or crushed body", "stress-noise crushed-whole")
+        .missed_by("jumps tears-early recursion-loses")
+        .wanted("end", "stretch at which the body tears or the step is too long", "tears-no-earlier stops")
+        .missed_by("jumps tears-early")
+        .where_referenced()
+        .checks(checks())
+        .headline(TEAR_STRETCH, "tears at (–)", 1.0, 2)
+        .headline(UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2)
+        .headline(PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2)
+        .headline(STOPPED_STRETCH, "stops at (–)", 1.0, 2)
+        .headline(PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2)
+        .headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 1)
+        .headline(PREDICTED_NOISE, "predicted (%)", 100.0, 1)
+        .headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1)
+        .watched(&["stress_kept", "stress_error"])
+        .sketch(sketch())
+        .cost(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 })
+        .begun(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
             1 => crate::problem::begin::<1, Stretching>(spec, values),
             _ => crate::problem::begin::<2, Stretching>(spec, values),
-        }),
-        tables: tables(),
-        ..Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL).planned(plan())
-    }
+        })
+        .tables(tables())
 }
 
 fn plan() -> Plan {

@@ -113,58 +113,50 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
-                      grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.",
-        references: vec![
-            "references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained, of a strip and of a square.".to_owned(),
-            "Prandtl's limit load (2 + π) s_u of undrained clay, with the strength of its critical state.".to_owned(),
-        ],
-        limits: &[
-            "The paper's numbers were not to be read: size, moduli, load and times are ours.",
-            "At large strain nothing is known but balances, and that pressures are smooth.",
-            "A rigid strip is held nodes, for settlements that are small against a cell.",
-        ],
-        wanted: vec![
-            Wanted::new("settlement", "settlement of the finest of three levels", "taylor-hood square"),
-            Wanted::new("limit-load", "limit load of undrained clay", "prandtl").where_referenced(),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(SETTLEMENT, "settlement (% of B)", 100.0, 3),
-            headline(SETTLEMENT_RATIO, "over that of finite elements", 1.0, 4),
-            headline(PRESSURE_ERROR, "error of p (% of q)", 100.0, 3),
-            headline(ROUGHNESS, "roughness of p (% of q)", 100.0, 3),
-            headline(LEAST_PRESSURE, "least p (% of q)", 100.0, 2),
-            headline(LAST_LOAD, "last load (kPa)", 1e-3, 2),
-            headline(LIMITING_LOAD, "limit load (kPa)", 1e-3, 2),
-            headline(UNIFORM_ERROR, "of clay in uniaxial strain, error (%)", 100.0, 4),
-            headline(NEWTON_ITERATIONS, "Newton iterations", 1.0, 0),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![value(SETTLEMENT, "settlement")],
-        watched: &["load", "settlement"],
-        sketch: Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
+    Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL)
+        .planned(plan())
+        .described("A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
+            grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.")
+        .reference("references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained, of a strip and of a square.")
+        .reference("Prandtl's limit load (2 + π) s_u of undrained clay, with the strength of its critical state.")
+        .limit("The paper's numbers were not to be read: size, moduli, load and times are ours.")
+        .limit("At large strain nothing is known but balances, and that pressures are smooth.")
+        .limit("A rigid strip is held nodes, for settlements that are small against a cell.")
+        .wanted("settlement", "settlement of the finest of three levels", "taylor-hood square")
+        .wanted("limit-load", "limit load of undrained clay", "prandtl")
+        .where_referenced()
+        .checks(checks::checks())
+        .headline(SETTLEMENT, "settlement (% of B)", 100.0, 3)
+        .headline(SETTLEMENT_RATIO, "over that of finite elements", 1.0, 4)
+        .headline(PRESSURE_ERROR, "error of p (% of q)", 100.0, 3)
+        .headline(ROUGHNESS, "roughness of p (% of q)", 100.0, 3)
+        .headline(LEAST_PRESSURE, "least p (% of q)", 100.0, 2)
+        .headline(LAST_LOAD, "last load (kPa)", 1e-3, 2)
+        .headline(LIMITING_LOAD, "limit load (kPa)", 1e-3, 2)
+        .headline(UNIFORM_ERROR, "of clay in uniaxial strain, error (%)", 100.0, 4)
+        .headline(NEWTON_ITERATIONS, "Newton iterations", 1.0, 0)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(value(SETTLEMENT, "settlement"))
+        .watched(&["load", "settlement"])
+        .sketch(Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
             .body([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]])
             .held([0.0, 0.0], [5.0, 0.0])
             .held([0.0, 0.0], [0.0, 5.0])
             .length([0.0, -0.5], [5.0, -0.5], "5 B")
             .note([3.2, 5.3], "drained")
             .note([0.5, 6.0], "q")
-            .loads((0..4).map(|k| 0.125 + 0.25 * f64::from(k)), [5.7, 5.05]),
-        cost: Box::new(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE) {
+            .loads((0..4).map(|k| 0.125 + 0.25 * f64::from(k)), [5.7, 5.05]))
+        .cost(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE) {
             true => 0.1 * spec.level.h.powi(-6),
             false => 1e-3 * spec.level.h.powi(-3),
-        }),
-        begin: Box::new(|spec, parameters| match Strip::read(parameters)?.dimension {
+        })
+        .begun(|spec, parameters| match Strip::read(parameters)?.dimension {
             2 => crate::problem::begin::<2, Setup<Strip>>(spec, parameters),
             _ => crate::problem::begin::<3, Setup<Strip>>(spec, parameters),
-        }),
-        pictures: figures::draw,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL).planned(plan())
-    }
+        })
+        .pictures(figures::draw)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// Reason why a run of this kind is known to break down: without a ghost penalty on displacements small cuts have no stiffness.

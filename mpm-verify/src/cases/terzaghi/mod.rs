@@ -48,45 +48,37 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A column full of water is loaded at once and drains at its top, at small strain: the exact solution is a series. \
-                      Each space of the pressure has a shortest first step below which the pressure overshoots, and by how much \
-                      is known in closed form.",
-        references: vec![
-            "Terzaghi's series, derived in the source and tested against values with fifty digits.".to_owned(),
-            "The overshoot of the first step: closed form of the discrete equations, docs/poromechanics.md.".to_owned(),
-        ],
-        limits: &[
-            "Small strain on a fixed grid: no particle crosses a cell, and linear functions and GIMP are one.",
-            "Two particles a cell: with more the projection's share of the bound is another one.",
-        ],
-        wanted: vec![
-            Wanted::new("settlement", "settlement at the end", "settlement"),
-            Wanted::new("pressure", "largest nodal pressure after the first step", "overshoot")
-                .missed_by("a-sixth-is-not-enough"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(PRESSURE_L2, "error of p (% of q)", 100.0, 4),
-            headline(PRESSURE_L2_STEPS, "of space alone (%)", 100.0, 5),
-            headline(OVERSHOOT_FIRST_STEP, "overshoot (%)", 100.0, 3),
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![error(PRESSURE_L2_STEPS, "rms error of p/q in space"), error(PRESSURE_L2, "rms error of p/q")],
-        watched: &["base_pressure", "settlement"],
-        sketch: Sketch::of("A column of 1 m on an impermeable floor, under a load q on its drained top.")
+    Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL)
+        .planned(plan())
+        .described("A column full of water is loaded at once and drains at its top, at small strain: the exact solution is a series. \
+            Each space of the pressure has a shortest first step below which the pressure overshoots, and by how much \
+            is known in closed form.")
+        .reference("Terzaghi's series, derived in the source and tested against values with fifty digits.")
+        .reference("The overshoot of the first step: closed form of the discrete equations, docs/poromechanics.md.")
+        .limit("Small strain on a fixed grid: no particle crosses a cell, and linear functions and GIMP are one.")
+        .limit("Two particles a cell: with more the projection's share of the bound is another one.")
+        .wanted("settlement", "settlement at the end", "settlement")
+        .wanted("pressure", "largest nodal pressure after the first step", "overshoot")
+        .missed_by("a-sixth-is-not-enough")
+        .checks(checks())
+        .headline(PRESSURE_L2, "error of p (% of q)", 100.0, 4)
+        .headline(PRESSURE_L2_STEPS, "of space alone (%)", 100.0, 5)
+        .headline(OVERSHOOT_FIRST_STEP, "overshoot (%)", 100.0, 3)
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(PRESSURE_L2_STEPS, "rms error of p/q in space"))
+        .quantity(error(PRESSURE_L2, "rms error of p/q"))
+        .watched(&["base_pressure", "settlement"])
+        .sketch(Sketch::of("A column of 1 m on an impermeable floor, under a load q on its drained top.")
             .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
             .held([0.0, 0.0], [0.3, 0.0])
             .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
             .note([0.15, 1.2], "q, drained")
-            .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-2)),
-        pictures,
-        tables: tables(),
-        ..Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL).planned(plan())
-    }
+            .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]))
+        .cost(|spec| 1e-6 * spec.level.h.powi(-2))
+        .pictures(pictures)
+        .tables(tables())
 }
 
 fn plan() -> Plan {

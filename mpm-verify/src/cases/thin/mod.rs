@@ -49,41 +49,31 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
-                      its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.",
-        references: vec![
-            "Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs."
-                .to_owned(),
-            "The bending stiffness of cells and particles, docs/thin.md.".to_owned(),
-        ],
-        limits: &[
-            "One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.",
-            "What F̄ leaves of the bending stiffness of linear functions is not foretold.",
-        ],
-        wanted: vec![
-            Wanted::new("frequency", "frequency of the first bending mode", "as-predicted")
-                .missed_by("locks two-particles average-hollows"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4),
-            headline(PREDICTED_RATIO, "predicted (–)", 1.0, 4),
-            headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3),
-            headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3),
-        ],
-        watched: &["deflection"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        tables: tables(),
-        breaks_down: |r| {
+    Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL)
+        .planned(plan())
+        .described("A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
+            its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.")
+        .reference("Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs.")
+        .reference("The bending stiffness of cells and particles, docs/thin.md.")
+        .limit("One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.")
+        .limit("What F̄ leaves of the bending stiffness of linear functions is not foretold.")
+        .wanted("frequency", "frequency of the first bending mode", "as-predicted")
+        .missed_by("locks two-particles average-hollows")
+        .checks(checks())
+        .headline(FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4)
+        .headline(PREDICTED_RATIO, "predicted (–)", 1.0, 4)
+        .headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3)
+        .headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3)
+        .watched(&["deflection"])
+        .sketch(sketch())
+        .cost(|spec| 1e-6 * spec.level.h.powi(-3))
+        .tables(tables())
+        .breaks_down(|r| {
             let beam = Setup::<Thin>::of_record(r).ok()?;
             let is_singular = beam.rule() == Some(RuleName::Midpoint) && beam.basis() == Gimp && beam.lumped == 0.0;
             is_singular
                 .then_some("domains at a face share too little of their outermost functions for a consistent mass")
-        },
-        ..Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL).planned(plan())
-    }
+        })
 }
 
 fn plan() -> Plan {

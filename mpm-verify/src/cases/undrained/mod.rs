@@ -56,39 +56,29 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
-                      order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.",
-        references: vec![
-            "Theory: a stable pair has an inf–sup number above a bound that no mesh changes; bilinear functions of equal order have none.".to_owned(),
-            "Exact motion without change of volume, and its pressure, in closed form.".to_owned(),
-        ],
-        limits: &[
-            "Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.",
-            "Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.",
-        ],
-        wanted: vec![
-            Wanted::new("pressure-modes", "number of pressures without an effect", "one-constant").missed_by("equal-order-has-checkerboards equal-order-loses-the-pressure"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(INF_SUP, "β", 1.0, 4),
-            headline(ZERO_MODES, "pressures without effect", 1.0, 0),
-            headline(DISPLACEMENT_ERROR, "error of u (%)", 100.0, 3),
-            headline(PRESSURE_ERROR, "error of p (%)", 100.0, 2),
-            headline(CHECKERBOARD_RATIO, "checkerboard (%)", 100.0, 2),
-            headline(PRESSURES, "pressures", 1.0, 0),
-        ],
-        quantities: vec![
-            error(DISPLACEMENT_ERROR, "error of the displacement"),
-            error(PRESSURE_ERROR, "error of the pressure"),
-        ],
-        watched: &["inf_sup"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-4)),
-        tables: tables(),
-        ..case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL).planned(plan())
-    }
+    case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL)
+        .planned(plan())
+        .described("Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
+            order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.")
+        .reference("Theory: a stable pair has an inf–sup number above a bound that no mesh changes; bilinear functions of equal order have none.")
+        .reference("Exact motion without change of volume, and its pressure, in closed form.")
+        .limit("Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.")
+        .limit("Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.")
+        .wanted("pressure-modes", "number of pressures without an effect", "one-constant")
+        .missed_by("equal-order-has-checkerboards equal-order-loses-the-pressure")
+        .checks(checks())
+        .headline(INF_SUP, "β", 1.0, 4)
+        .headline(ZERO_MODES, "pressures without effect", 1.0, 0)
+        .headline(DISPLACEMENT_ERROR, "error of u (%)", 100.0, 3)
+        .headline(PRESSURE_ERROR, "error of p (%)", 100.0, 2)
+        .headline(CHECKERBOARD_RATIO, "checkerboard (%)", 100.0, 2)
+        .headline(PRESSURES, "pressures", 1.0, 0)
+        .quantity(error(DISPLACEMENT_ERROR, "error of the displacement"))
+        .quantity(error(PRESSURE_ERROR, "error of the pressure"))
+        .watched(&["inf_sup"])
+        .sketch(sketch())
+        .cost(|spec| 1e-6 * spec.level.h.powi(-4))
+        .tables(tables())
 }
 
 fn plan() -> Plan {
