@@ -331,6 +331,12 @@ impl Case {
         Self { pictures, ..self }
     }
 
+    /// Adds a table of its results.
+    pub(crate) fn table(mut self, table: ResultTable) -> Self {
+        self.tables.push(table);
+        self
+    }
+
     /// With tables of its results.
     pub(crate) fn tables(self, tables: Vec<ResultTable>) -> Self {
         Self { tables, ..self }

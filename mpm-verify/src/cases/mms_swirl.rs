@@ -40,9 +40,7 @@ pub(super) fn case() -> Case {
     .limit("Three levels, the coarsest with three cells across the radius of the vortex.")
     .limit("The steps are those of ν = 0.499.")
     .checks(checks)
-    .tables(vec![
-        tables::own_orders("mms-swirl"),
-        tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]),
-        tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]),
-    ])
+    .table(tables::own_orders("mms-swirl"))
+    .table(tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]))
+    .table(tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]))
 }

@@ -33,21 +33,19 @@ pub(super) fn case() -> Case {
     .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
     .checks(checks)
     .sweep(LOCKING_CURVE)
-    .tables(vec![
-        tables::own_orders("mms-vortex-pressure"),
-        tables::locking(
-            "mms-vortex-pressure-locking",
-            [
-                ("n8, ν = 0.49", "n8", "poisson_ratio=0.49"),
-                ("n8, 0.499", "n8", ""),
-                ("n8, 0.4999", "n8", "poisson_ratio=0.4999"),
-                ("n16, 0.49", "n16", "poisson_ratio=0.49"),
-                ("n16, 0.499", "n16", ""),
-                ("n16, 0.4999", "n16", "poisson_ratio=0.4999"),
-            ],
-        ),
-        tables::pressure("mms-vortex-pressure-pressure", ["n8", "n16", "n32", "n64"]),
-    ])
+    .table(tables::own_orders("mms-vortex-pressure"))
+    .table(tables::locking(
+        "mms-vortex-pressure-locking",
+        [
+            ("n8, ν = 0.49", "n8", "poisson_ratio=0.49"),
+            ("n8, 0.499", "n8", ""),
+            ("n8, 0.4999", "n8", "poisson_ratio=0.4999"),
+            ("n16, 0.49", "n16", "poisson_ratio=0.49"),
+            ("n16, 0.499", "n16", ""),
+            ("n16, 0.4999", "n16", "poisson_ratio=0.4999"),
+        ],
+    ))
+    .table(tables::pressure("mms-vortex-pressure-pressure", ["n8", "n16", "n32", "n64"]))
 }
 
 fn plan() -> Plan {

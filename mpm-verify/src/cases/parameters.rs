@@ -16,14 +16,8 @@ const AUTO: &str = "auto";
 choices! {
     /// How B-splines meet walls.
     pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
-}
-
-choices! {
     /// How the time step follows from the cells.
     pub(super) enum StepScaling { H = "h", H2 = "h2" }
-}
-
-choices! {
     /// How the time step is found.
     pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
 }

@@ -158,12 +158,10 @@ pub(super) fn case() -> Case {
     .headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 5)
     .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4)
     .quantity(error(FREQUENCY_ERROR, "relative error of the frequency"))
-    .tables(vec![
-        periods("standing-wave-two-periods", &[SCHEME], Record::is_default),
-        periods("standing-wave-twenty-periods", &[SCHEME], |r| tables::changes(r, TWENTY_PERIODS)),
-        periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)),
-        periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()),
-    ])
+    .table(periods("standing-wave-two-periods", &[SCHEME], Record::is_default))
+    .table(periods("standing-wave-twenty-periods", &[SCHEME], |r| tables::changes(r, TWENTY_PERIODS)))
+    .table(periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)))
+    .table(periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()))
     .breaks_down(|r| {
         let disordered = Setup::of_record(r).is_ok_and(|r| is_disordered(&r));
         disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/modes.md)")

@@ -122,17 +122,12 @@ pub(super) fn case() -> Case {
 
 fn results() -> ResultTable {
     let titled = |what: &'static str| LEVELS.map(|(level, n)| (level, format!("{what}, n = {n}")));
-    let mut columns = Column::levels(titled("error of the frequency"), FREQUENCY_ERROR, scientific(2));
-    columns.push(Column::row("order ± (between levels)", |runs, _| {
+    ResultTable::of("vibrating-bar", |r| r.is_default() && is_flip(r))
+        .by(&[SCHEME])
+        .columns(Column::levels(titled("error of the frequency"), FREQUENCY_ERROR, scientific(2)))
         // What fades within the run has no frequency to converge.
-        let lasting = runs.iter().copied();
-        let lasting = lasting.filter(|r| r.remedy() != FbarRecursive);
-        let found = order(lasting, FREQUENCY_ERROR.name);
-        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
-    }));
-    columns.extend(Column::levels(titled("amplitude"), AMPLITUDE_RATIO, fixed(3)));
-    let shows = |r: &Record| r.is_default() && is_flip(r);
-    ResultTable::new("vibrating-bar", shows, &[SCHEME], columns)
+        .column(Column::order_of(FREQUENCY_ERROR, |r| r.remedy() != FbarRecursive))
+        .columns(Column::levels(titled("amplitude"), AMPLITUDE_RATIO, fixed(3)))
 }
 
 /// Frequency over a hundred periods with implicit rules, and the energy that is lost.
@@ -176,15 +171,13 @@ fn softenings() -> ResultTable {
         averaged(runs)
             .map_or_else(String::new, |(basis, remedy)| fixed(3).text(softening(basis, remedy).unwrap_or(f64::NAN)))
     });
-    ResultTable::new(
-        "vibrating-bar-softening",
-        |r| {
-            let compared = [RemedyName::None, FbarRate, FbarConsistent];
-            r.is_default() && is_flip(r) && compared.contains(&r.remedy())
-        },
-        &[SCHEME],
-        of_level.into_iter().chain([predicted]),
-    )
+    ResultTable::of("vibrating-bar-softening", |r| {
+        let compared = [RemedyName::None, FbarRate, FbarConsistent];
+        r.is_default() && is_flip(r) && compared.contains(&r.remedy())
+    })
+    .by(&[SCHEME])
+    .columns(of_level)
+    .column(predicted)
 }
 
 fn checks() -> Vec<Check> {

@@ -25,14 +25,8 @@ choices! {
     pub(super) enum LawName {
         Hencky = "hencky", NeoHookean = "neo-hookean", Jaumann = "jaumann", JaumannLinear = "jaumann-linear",
     }
-}
-
-choices! {
     /// Initial positions of the particles in a cell.
     pub(super) enum Points { Uniform = "uniform", Gauss = "gauss" }
-}
-
-choices! {
     /// Stabilisation of functions that see hardly any material.
     pub(super) enum Stabilised { None = "none", Soft = "soft", Ghost = "ghost", Extension = "extension" }
 }
@@ -253,40 +247,25 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("log₁₀ condition", LOG10_CONDITION, fixed(1)),
         ]
     };
-    let mut ghosts = errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]);
-    ghosts.extend(Column::levels([("h0.05", "log₁₀ condition, 0.05")], LOG10_CONDITION, fixed(1)));
-    let of_paper = [
-        Column::metric("corner u_x (m)", CORNER_UX, fixed(3)),
-        Column::metric("corner u_y (m)", CORNER_UY, fixed(3)),
-        Column::metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3)),
-    ];
     let splines = |r: &Record| r.basis() == Bspline2 && r.level == "h0.05";
     let keeps_law_and_load = |r: &Record| r.set.iter().all(|s| !s.starts_with("law") && !s.starts_with("load"));
     vec![
-        ResultTable::new(
-            "cantilever-cells",
-            |r| r.changes_none_but(&["stabilisation"]),
-            &[BASIS, STABILISATION],
-            errors(str::to_owned, &LEVELS),
-        ),
-        ResultTable::new(
-            "cantilever-steps",
-            move |r| splines(r) && r.changes_none_but(&["load_steps", "law"]),
-            &[LAW],
-            steps,
-        ),
+        ResultTable::of("cantilever-cells", |r| r.changes_none_but(&["stabilisation"]))
+            .by(&[BASIS, STABILISATION])
+            .columns(errors(str::to_owned, &LEVELS)),
+        ResultTable::of("cantilever-steps", move |r| splines(r) && r.changes_none_but(&["load_steps", "law"]))
+            .by(&[LAW])
+            .columns(steps),
         ResultTable::new("cantilever-choices", move |r| splines(r) && keeps_law_and_load(r), &[CHANGED], columns()),
-        ResultTable::new(
-            "cantilever-ghosts",
-            |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]),
-            &[ALPHA],
-            ghosts,
-        ),
-        ResultTable::new(
-            "cantilever-paper",
-            |r| r.basis() == Q8 && r.level == "h0.1" && r.set.len() > 2,
-            &[BESIDE_PAPER],
-            of_paper.into_iter().chain(columns()),
-        ),
+        ResultTable::of("cantilever-ghosts", |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]))
+            .by(&[ALPHA])
+            .columns(errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]))
+            .columns(Column::levels([("h0.05", "log₁₀ condition, 0.05")], LOG10_CONDITION, fixed(1))),
+        ResultTable::of("cantilever-paper", |r| r.basis() == Q8 && r.level == "h0.1" && r.set.len() > 2)
+            .by(&[BESIDE_PAPER])
+            .metric("corner u_x (m)", CORNER_UX, fixed(3))
+            .metric("corner u_y (m)", CORNER_UY, fixed(3))
+            .metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3))
+            .columns(columns()),
     ]
 }

@@ -188,25 +188,19 @@ fn tables() -> Vec<ResultTable> {
     const OVER: Label = ("ghost of p over", |r| r.parameters.text(PRESSURE_GHOST));
     let two = |title, metric| Column::metric(title, metric, fixed(2));
     vec![
-        ResultTable::new(
-            "conditioning-alpha",
-            |r| r.changes_none_but(&["alpha"]),
-            &[SCHEME, ALPHA],
-            [
-                two("uu least", COND_UU_LEAST),
-                two("mean", COND_UU_MEAN),
-                two("most", COND_UU),
-                two("pp least", COND_PP_LEAST),
-                two("mean", COND_PP_MEAN),
-                two("most", COND_PP),
-                Column::metric("deflection", DEFLECTION_CHANGE, percent(2)),
-            ],
-        ),
-        ResultTable::new(
-            "conditioning-whole",
-            |r| r.changes_none_but(&["alpha", "mobility", "pressure_ghost"]),
-            &[SCHEME, WATER, ALPHA, OVER],
-            [("raw", COND), ("scaled", COND_SCALED)].map(|(title, metric)| Column::metric(title, metric, fixed(1))),
-        ),
+        ResultTable::of("conditioning-alpha", |r| r.changes_none_but(&["alpha"]))
+            .by(&[SCHEME, ALPHA])
+            .column(two("uu least", COND_UU_LEAST))
+            .column(two("mean", COND_UU_MEAN))
+            .column(two("most", COND_UU))
+            .column(two("pp least", COND_PP_LEAST))
+            .column(two("mean", COND_PP_MEAN))
+            .column(two("most", COND_PP))
+            .metric("deflection", DEFLECTION_CHANGE, percent(2)),
+        ResultTable::of("conditioning-whole", |r| r.changes_none_but(&["alpha", "mobility", "pressure_ghost"]))
+            .by(&[SCHEME, WATER, ALPHA, OVER])
+            .columns(
+                [("raw", COND), ("scaled", COND_SCALED)].map(|(title, metric)| Column::metric(title, metric, fixed(1))),
+            ),
     ]
 }

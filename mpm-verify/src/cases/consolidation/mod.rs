@@ -153,54 +153,39 @@ fn tables() -> Vec<ResultTable> {
         let levels = levels.iter().map(|(level, n)| (*level, format!("{title}n = {n}")));
         Column::levels(levels, SETTLEMENT_ERROR_STEPS, share(3))
     };
-    let mut of_cells = errors(&LEVELS, "");
-    of_cells.push(Column::order(SETTLEMENT_ERROR_STEPS));
-    of_cells.extend(Column::levels([("n16", "with that of time, n = 16")], SETTLEMENT_ERROR, share(2)));
     let of_drains = [100.0, 1e3, 1e4].into_iter().flat_map(|drain| {
         LEVELS[..3].iter().map(move |(level, n)| {
             let at = move |r: &Record| r.level == *level && number(r, |c| c.drain) == drain;
             Column::metric(format!("β h/κ₀ = {drain}, n = {n}"), SETTLEMENT_ERROR_STEPS, share(3)).of(at)
         })
     });
-    let of_water = [
-        Column::metric("water made", MASS_ERROR, scientific(2)),
-        Column::metric("½ Σ V (J̃ − 1)²", RATE_LOSS, scientific(2)),
-        Column::metric("error of settlement", SETTLEMENT_ERROR, share(2)),
-    ];
     let is_two_grid = |r: &Record| r.scheme() == Scheme::poro(Gimp, TwoGrid);
     vec![
-        ResultTable::new(
-            "consolidation-cells",
-            |r| r.basis() == Gimp && r.changes_none_but(&["load"]),
-            &[LOADED, SCHEME],
-            of_cells,
-        ),
+        ResultTable::of("consolidation-cells", |r| r.basis() == Gimp && r.changes_none_but(&["load"]))
+            .by(&[LOADED, SCHEME])
+            .columns(errors(&LEVELS, ""))
+            .column(Column::order(SETTLEMENT_ERROR_STEPS))
+            .columns(Column::levels([("n16", "with that of time, n = 16")], SETTLEMENT_ERROR, share(2))),
         // Linear functions, where they come to the end.
-        ResultTable::new(
-            "consolidation-linear",
-            |r| r.basis() == Linear && r.changes_none_but(&["load"]),
-            &[LOADED, SCHEME],
-            errors(&LEVELS, ""),
-        ),
-        ResultTable::new(
-            "consolidation-drain",
-            |r| r.basis() == Gimp && r.changes_none_but(&["drain"]),
-            &[SCHEME],
-            of_drains,
-        )
-        .across(),
-        ResultTable::new(
-            "consolidation-ghosts",
-            move |r| is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]),
-            &[GHOST_U, GHOST_P],
-            errors(&LEVELS[..3], "error of settlement, "),
-        ),
-        ResultTable::new(
-            "consolidation-water",
-            move |r| is_two_grid(r) && r.level == "n16" && r.changes_none_but(&["load", "refine", "volume_rate"]),
-            &[LOADED, RATE, STEPS],
-            of_water,
-        ),
+        ResultTable::of("consolidation-linear", |r| r.basis() == Linear && r.changes_none_but(&["load"]))
+            .by(&[LOADED, SCHEME])
+            .columns(errors(&LEVELS, "")),
+        ResultTable::of("consolidation-drain", |r| r.basis() == Gimp && r.changes_none_but(&["drain"]))
+            .by(&[SCHEME])
+            .columns(of_drains)
+            .across(),
+        ResultTable::of("consolidation-ghosts", move |r| {
+            is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"])
+        })
+        .by(&[GHOST_U, GHOST_P])
+        .columns(errors(&LEVELS[..3], "error of settlement, ")),
+        ResultTable::of("consolidation-water", move |r| {
+            is_two_grid(r) && r.level == "n16" && r.changes_none_but(&["load", "refine", "volume_rate"])
+        })
+        .by(&[LOADED, RATE, STEPS])
+        .metric("water made", MASS_ERROR, scientific(2))
+        .metric("½ Σ V (J̃ − 1)²", RATE_LOSS, scientific(2))
+        .metric("error of settlement", SETTLEMENT_ERROR, share(2)),
     ]
 }
 

@@ -276,45 +276,30 @@ fn tables() -> Vec<ResultTable> {
         own && is_flip(r) && r.level == "h1" && RATIOS.iter().any(|(_, set)| r.set == *set)
     };
 
-    let of_static = over_levels("mid-edge error", error)
-        .into_iter()
-        .chain([Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1")])
-        .chain(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s)));
-    let of_rim = [
-        Column::text("mid-edge error", error),
-        Column::value("of the load at its place", checks::mid_edge_error, percent(2)),
-        Column::metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4)),
-        Column::metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
-        Column::metric("linear iterations", LINEAR_ITERATIONS, fixed(0)),
-    ];
     vec![
-        ResultTable::new(
-            "cook",
-            is_shown,
-            &[SCHEME],
-            over_levels("mid-edge error", error_at_rest).into_iter().chain(over_levels("checkerboard", noise)),
-        ),
+        ResultTable::of("cook", is_shown)
+            .by(&[SCHEME])
+            .columns(over_levels("mid-edge error", error_at_rest))
+            .columns(over_levels("checkerboard", noise)),
         ResultTable::new("cook-overview", is_shown, &[BASIS], overview),
         transfers("cook-transfers", &[PAIR, CELLS], &["3", "4"], error),
-        ResultTable::new(
-            "cook-poisson",
-            at_ratios,
-            &[SCHEME],
-            over_ratios("mid-edge error", error_at_rest).into_iter().chain(over_ratios("checkerboard", noise)),
-        )
-        .least(3),
-        ResultTable::new(
-            "cook-static",
-            |r| is_static(r) && r.changes_none_but(&["load_steps"]),
-            &[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))],
-            of_static,
-        ),
+        ResultTable::of("cook-poisson", at_ratios)
+            .by(&[SCHEME])
+            .columns(over_ratios("mid-edge error", error_at_rest))
+            .columns(over_ratios("checkerboard", noise))
+            .least(3),
+        ResultTable::of("cook-static", |r| is_static(r) && r.changes_none_but(&["load_steps"]))
+            .by(&[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))])
+            .columns(over_levels("mid-edge error", error))
+            .column(Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1"))
+            .columns(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s))),
         // Effect of a held rim, of a single step and of a larger load.
-        ResultTable::new(
-            "cook-rim",
-            |r| is_static(r) && r.level == "h1",
-            &[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })],
-            of_rim,
-        ),
+        ResultTable::of("cook-rim", |r| is_static(r) && r.level == "h1")
+            .by(&[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })])
+            .text("mid-edge error", error)
+            .value("of the load at its place", checks::mid_edge_error, percent(2))
+            .metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0))
+            .metric("linear iterations", LINEAR_ITERATIONS, fixed(0)),
     ]
 }

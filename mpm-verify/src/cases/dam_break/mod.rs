@@ -21,9 +21,6 @@ const SHORT: &str = "cfl=0.3 duration=0.6";
 choices! {
     /// How the water comes to rest behind the gate.
     pub(super) enum Rest { Exact = "exact", GravityStage = "gravity-stage" }
-}
-
-choices! {
     /// Contact of the water with the walls.
     pub(super) enum Contact { Separable = "separable", Sticky = "sticky" }
 }
@@ -211,12 +208,9 @@ fn overview() -> ResultTable {
     let column = |(remedy, level): (RemedyName, &'static str)| {
         Column::text(format!("{remedy}, {} m", &level[1..]), text).of(move |r| r.remedy() == remedy && r.level == level)
     };
-    ResultTable::new(
-        "dam-break",
-        |r| BASES.contains(&r.basis()) && is_flip(r) && r.set == [LADDER],
-        &[BASIS],
-        RUNS.map(column),
-    )
+    ResultTable::of("dam-break", |r| BASES.contains(&r.basis()) && is_flip(r) && r.set == [LADDER])
+        .by(&[BASIS])
+        .columns(RUNS.map(column))
 }
 
 fn of_flow() -> ResultTable {
@@ -224,23 +218,18 @@ fn of_flow() -> ResultTable {
         let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
         format!("{least} … {most}")
     };
-    ResultTable::new(
-        "dam-break-flow",
-        |r| r.set == [LADDER],
-        &[SCHEME, CELLS],
-        [
-            Column::metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(2)),
-            Column::metric("rms error (m)", FRONT_RMS_ERROR, fixed(2)),
-            Column::metric("arrival off by (ms)", ARRIVAL_ERROR, fixed(0).times(1e3)),
-            Column::metric("p rms (kPa)", PRESSURE_RMS, fixed(1).times(1e-3)),
-            Column::metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3)),
-            Column::metric("in tension", TENSION_SHARE, share(0)),
-            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
-            Column::metric("with stress work", ENERGY_RATIO_2S, fixed(3)),
-            Column::text("J", range),
-            Column::cpu(),
-        ],
-    )
+    ResultTable::of("dam-break-flow", |r| r.set == [LADDER])
+        .by(&[SCHEME, CELLS])
+        .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(2))
+        .metric("rms error (m)", FRONT_RMS_ERROR, fixed(2))
+        .metric("arrival off by (ms)", ARRIVAL_ERROR, fixed(0).times(1e3))
+        .metric("p rms (kPa)", PRESSURE_RMS, fixed(1).times(1e-3))
+        .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
+        .metric("in tension", TENSION_SHARE, share(0))
+        .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
+        .metric("with stress work", ENERGY_RATIO_2S, fixed(3))
+        .text("J", range)
+        .cpu()
 }
 
 /// The value of a parameter as it was set, or its default.
@@ -257,58 +246,45 @@ fn at_rest() -> ResultTable {
     let gate = |r: &Record| r.metric(GATE_FORCE) / (0.5 * DEPTH * pressure(r)) - 1.0;
     let floor = |r: &Record| r.metric(BASE_PRESSURE) / pressure(r) - 1.0;
     let force = |r: &Record| r.metric(BASE_REACTION_RATIO) - 1.0;
-    ResultTable::new(
-        "dam-break-start",
-        |r| r.status == Status::Ok && is_flip(r) && AT_REST.iter().any(|set| r.set.join(" ") == *set),
-        &[
-            SCHEME,
-            CELLS,
-            ("start", |r| word(r, "start", "exact").replace('-', " ")),
-            ("CFL", |r| word(r, "cfl", "0.0567")),
-        ],
-        [
-            Column::value("force on the floor", force, percent(2)),
-            Column::value("on the gate", gate, percent(2)),
-            Column::value("pressure at the floor", floor, percent(2)),
-            Column::metric("profile rms", PRESSURE_PROFILE_ERROR, percent(2)),
-        ],
-    )
+    ResultTable::of("dam-break-start", |r| {
+        r.status == Status::Ok && is_flip(r) && AT_REST.iter().any(|set| r.set.join(" ") == *set)
+    })
+    .by(&[
+        SCHEME,
+        CELLS,
+        ("start", |r| word(r, "start", "exact").replace('-', " ")),
+        ("CFL", |r| word(r, "cfl", "0.0567")),
+    ])
+    .value("force on the floor", force, percent(2))
+    .value("on the gate", gate, percent(2))
+    .value("pressure at the floor", floor, percent(2))
+    .metric("profile rms", PRESSURE_PROFILE_ERROR, percent(2))
 }
 
 /// Shares of PIC, walls, start, last bits: at h = 0.25 m.
 fn studies() -> ResultTable {
-    ResultTable::new(
-        "dam-break-studies",
-        |r| {
-            let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
-            let flow = r.set.iter().all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
-            ours && flow && is_flip(r) && r.level == "h0.25"
-        },
-        &[SCHEME, CHANGED],
-        [
-            Column::metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(3)),
-            Column::metric("rms error (m)", FRONT_RMS_ERROR, fixed(3)),
-            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
-            Column::metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3)),
-            Column::metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3)),
-        ],
-    )
+    ResultTable::of("dam-break-studies", |r| {
+        let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
+        let flow = r.set.iter().all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
+        ours && flow && is_flip(r) && r.level == "h0.25"
+    })
+    .by(&[SCHEME, CHANGED])
+    .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(3))
+    .metric("rms error (m)", FRONT_RMS_ERROR, fixed(3))
+    .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
+    .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
+    .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3))
 }
 
 fn sums() -> ResultTable {
-    ResultTable::new(
-        "dam-break-sums",
-        |r| {
-            let shown = !r.is_default() || r.remedy() == FbarConsistent;
-            let short = [SHORT, "duration=0.6"].contains(&&*r.set.join(" "));
-            r.status == Status::Ok && shown && !short
-        },
-        &[SCHEME, CELLS, CHANGED],
-        [
-            Column::metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3)),
-            Column::metric("mean x (m)", CENTRE_X_MEAN, fixed(3)),
-            Column::metric("mean y (m)", CENTRE_Y_MEAN, fixed(3)),
-            Column::metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
-        ],
-    )
+    ResultTable::of("dam-break-sums", |r| {
+        let shown = !r.is_default() || r.remedy() == FbarConsistent;
+        let short = [SHORT, "duration=0.6"].contains(&&*r.set.join(" "));
+        r.status == Status::Ok && shown && !short
+    })
+    .by(&[SCHEME, CELLS, CHANGED])
+    .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3))
+    .metric("mean x (m)", CENTRE_X_MEAN, fixed(3))
+    .metric("mean y (m)", CENTRE_Y_MEAN, fixed(3))
+    .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
 }

@@ -55,11 +55,6 @@ impl Dam {
         if self.is_staged() { rows } else { 0 }
     }
 
-    /// Rows of the series after the removal of the gate.
-    fn free_rows(&self) -> usize {
-        (self.setup.duration / ROW).round() as usize
-    }
-
     /// The longest period (s) of the water behind the gate.
     fn period(&self) -> f64 {
         4.0 * DEPTH / self.law.wave_speed(self.water.density)
@@ -305,7 +300,7 @@ impl Problem<2> for Dam {
     }
 
     fn progress(&self, seen: &Observed, _: &Phase<2>) -> f64 {
-        let rows = self.stage_rows() + self.free_rows();
+        let rows = self.stage_rows() + (self.setup.duration / ROW).round() as usize;
         (seen.held + seen.flow.rows.len()) as f64 / rows as f64
     }
 

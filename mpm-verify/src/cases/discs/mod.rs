@@ -120,7 +120,7 @@ pub(super) fn case() -> Case {
         .watched(&["energy_change", "distance"])
         .sketch(sketch())
         .cost(cost)
-        .pictures(pictures)
+        .pictures(|gallery| energies(gallery).and_then(|()| contact(gallery)))
         .tables(tables())
         .breaks_down(|r| match r.scheme() {
             Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => {
@@ -317,13 +317,6 @@ fn tables() -> Vec<ResultTable> {
         let shows = move |r: &Record| at(offset)(r) && r.changes_none_but(&["step_factor", "offset"]);
         ResultTable::new(name, shows, &[SCHEME], columns)
     };
-    let balance = [
-        Column::metric("energy at the end", ENERGY_END, percent(3)),
-        Column::metric("lumped mass took", LUMPING_LOSS, percent(3)),
-        Column::metric("accumulated energy off by", ENERGY_ERROR_ACCUMULATED, percent(3)),
-        Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
-        Column::metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
-    ];
     let long = |r: &Record| {
         number(r, |d| d.step_factor.value()) == 100.0 && r.changes_none_but(&["step_factor", "offset", "lumped"])
     };
@@ -333,7 +326,6 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("speed", RESTITUTION, fixed(3)).of(at(offset)),
         ]
     });
-    let turning = Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1));
     let passing = [0.4, 0.5, 0.65].into_iter().flat_map(|offset| {
         [
             Column::metric(format!("free until, {offset} m"), FREE_UNTIL, fixed(1)).of(at(offset)),
@@ -343,25 +335,21 @@ fn tables() -> Vec<ResultTable> {
     vec![
         over_steps("discs-head-on", 0.0),
         over_steps("discs-offset", 0.1),
-        ResultTable::new("discs-balance", long, &[SCHEME, OFFSET, LUMPED], balance),
-        ResultTable::new(
-            "discs-explicit",
-            move |r| is_explicit(r) && r.level == "h0.05",
-            &[SCHEME, SHARE],
-            explicit.chain([turning]),
-        ),
-        ResultTable::new(
-            "discs-passing",
-            move |r| is_explicit(r) && number(r, |d| d.offset) >= 0.4,
-            &[SCHEME, SHARE, LEVEL],
-            passing,
-        ),
+        ResultTable::of("discs-balance", long)
+            .by(&[SCHEME, OFFSET, LUMPED])
+            .metric("energy at the end", ENERGY_END, percent(3))
+            .metric("lumped mass took", LUMPING_LOSS, percent(3))
+            .metric("accumulated energy off by", ENERGY_ERROR_ACCUMULATED, percent(3))
+            .metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT)
+            .metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
+        ResultTable::of("discs-explicit", move |r| is_explicit(r) && r.level == "h0.05")
+            .by(&[SCHEME, SHARE])
+            .columns(explicit)
+            .column(Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1))),
+        ResultTable::of("discs-passing", move |r| is_explicit(r) && number(r, |d| d.offset) >= 0.4)
+            .by(&[SCHEME, SHARE, LEVEL])
+            .columns(passing),
     ]
-}
-
-fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
-    energies(gallery)?;
-    contact(gallery)
 }
 
 /// Energy over time: the paper's Figure 6, a panel a time step.

@@ -27,14 +27,8 @@ const SAME: f64 = 0.01;
 choices! {
     /// Contact with the base.
     enum Base { Rough = "rough", Frictional = "friction" }
-}
-
-choices! {
     /// Application of gravity.
     enum Raising { Ramp = "ramp", Step = "step" }
-}
-
-choices! {
     /// Constitutive law.
     enum LawName { Hencky = "hencky-j2", Jaumann = "jaumann-j2" }
 }

@@ -265,11 +265,8 @@ fn gap(r: &Record) -> f64 {
     }
 }
 
-fn is_main(r: &Record) -> bool {
-    r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20"
-}
-
 fn tables() -> Vec<ResultTable> {
+    let is_main = |r: &Record| r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20";
     vec![
         ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
         table_of_results(),
@@ -282,23 +279,18 @@ fn tables() -> Vec<ResultTable> {
 }
 
 fn table_of_results() -> ResultTable {
-    ResultTable::new(
-        "footing-results",
-        |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"),
-        &[SCHEME, OF_WIDTH, ("changed", changed)],
-        [
-            Column::metric("N_c by B", NC_B, fixed(3)),
-            Column::metric("by B + h", NC_B_PLUS_H, fixed(3)),
-            Column::value("by its own width", own, fixed(3)),
-            Column::value("from 2 + π", from_exact, percent(1)),
-            Column::metric("rise per 10⁻³", PLATEAU_RISE, percent(1)),
-            Column::metric("mechanism (B)", MECHANISM_WIDTH, fixed(2)),
-            Column::metric("heave", HEAVE, fixed(2)),
-            Column::metric("checkerboard", CHECKERBOARD_RATIO, fixed(2)),
-            Column::value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4)),
-            Column::cpu(),
-        ],
-    )
+    ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
+        .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
+        .metric("N_c by B", NC_B, fixed(3))
+        .metric("by B + h", NC_B_PLUS_H, fixed(3))
+        .value("by its own width", own, fixed(3))
+        .value("from 2 + π", from_exact, percent(1))
+        .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
+        .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
+        .metric("heave", HEAVE, fixed(2))
+        .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
+        .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
+        .cpu()
 }
 
 fn table_of_mean_stresses() -> ResultTable {
@@ -310,12 +302,9 @@ fn table_of_mean_stresses() -> ResultTable {
         let title = format!("({}, {}) B{elements}", point[0], -point[1]);
         Column::metric(title, metric, fixed(2))
     };
-    ResultTable::new(
-        "footing-mean-stress",
-        |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level),
-        &[PAIR, OF_WIDTH],
-        MEAN_STRESSES.iter().copied().map(column),
-    )
+    ResultTable::of("footing-mean-stress", |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level))
+        .by(&[PAIR, OF_WIDTH])
+        .columns(MEAN_STRESSES.iter().copied().map(column))
 }
 
 /// Half and twice the case's own rate beside it.
@@ -324,19 +313,15 @@ fn table_of_rates() -> ResultTable {
     let rate = |r: &Record| Setup::<Footing>::number_of(r, |c| c.penetration_rate);
     let loads = rates.map(|(name, rate)| (rate, format!("{name}·10⁻³ m/s")));
     let imbalances = rates.map(|(name, rate)| (rate, format!("imbalance of forces at {name}")));
-    let mut columns = Column::over(loads, rate, NC_B, fixed(3));
-    columns.extend(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)));
-    ResultTable::new(
-        "footing-rates",
-        |r| {
-            let compared = [FbarRecursive, FbarConsistent];
-            let own = r.is_default() || r.changes_only("penetration_rate");
-            let main = r.basis() != Bspline3 && compared.contains(&r.remedy());
-            own && main && is_flip(r) && r.level == "b10"
-        },
-        &[("scheme, B/10", SCHEME.1)],
-        columns,
-    )
+    ResultTable::of("footing-rates", |r| {
+        let compared = [FbarRecursive, FbarConsistent];
+        let own = r.is_default() || r.changes_only("penetration_rate");
+        let main = r.basis() != Bspline3 && compared.contains(&r.remedy());
+        own && main && is_flip(r) && r.level == "b10"
+    })
+    .by(&[("scheme, B/10", SCHEME.1)])
+    .columns(Column::over(loads, rate, NC_B, fixed(3)))
+    .columns(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)))
 }
 
 fn table_of_slopes() -> ResultTable {
@@ -349,35 +334,21 @@ fn table_of_slopes() -> ResultTable {
         let slope = |c: &Setup<Footing>| c.reference_slope().map_or(f64::NAN, |s| s / strength_ratio());
         Setup::number_of(r, slope)
     };
-    ResultTable::new(
-        "footing-slopes",
-        |r| r.set == [ELASTIC],
-        &[SCHEME, OF_WIDTH],
-        [
-            Column::value("slope d(q/s_u)/d(s/B)", found, fixed(0)),
-            Column::value("finite elements that act as wide", expected, fixed(0)),
-            Column::value("difference", move |r| found(r) / expected(r) - 1.0, percent(1)),
-        ],
-    )
+    ResultTable::of("footing-slopes", |r| r.set == [ELASTIC])
+        .by(&[SCHEME, OF_WIDTH])
+        .value("slope d(q/s_u)/d(s/B)", found, fixed(0))
+        .value("finite elements that act as wide", expected, fixed(0))
+        .value("difference", move |r| found(r) / expected(r) - 1.0, percent(1))
 }
 
 fn table_of_orders() -> ResultTable {
-    // Errors on splines with F̄ are too small to fall with an order.
-    let text = |runs: &[&Record], _: &[&Record]| {
-        let gimp = runs.iter().copied().filter(|r| r.basis() == Gimp);
-        let found = order(gimp, PRANDTL_ERROR.name);
-        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
-    };
     let levels = [("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")];
-    let levels = Column::levels(levels, PRANDTL_ERROR, percent(1));
-    let order = Column::row("order (between levels)", text);
-    ResultTable::new(
-        "footing-orders",
-        |r| {
-            let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
-            main && is_flip(r) && r.is_default()
-        },
-        &[SCHEME],
-        levels.into_iter().chain([order]),
-    )
+    ResultTable::of("footing-orders", |r| {
+        let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
+        main && is_flip(r) && r.is_default()
+    })
+    .by(&[SCHEME])
+    .columns(Column::levels(levels, PRANDTL_ERROR, percent(1)))
+    // Errors on splines with F̄ are too small to fall with an order.
+    .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)"))
 }

@@ -176,15 +176,6 @@ fn checks() -> Vec<Check> {
 fn tables() -> Vec<ResultTable> {
     let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
     let together = LEVELS.map(|(level, n)| (level, format!("n = {n}, {} steps", 60.0 * (n / 8.0_f64).powi(2))));
-    let of_n32 = |title: &str, metric, format| Column::metric(title, metric, format).of(|r: &Record| r.level == "n32");
-    let mut of_cells = Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2));
-    of_cells.extend([
-        Column::order(CENTRE_PRESSURE_ERROR_SPACE),
-        of_n32("from the difference equations, n = 32", EQUATIONS_DISTANCE, scientific(1)),
-        of_n32("entries, n = 32", ENTRIES, fixed(0)),
-    ]);
-    let mut of_together = Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2));
-    of_together.push(Column::order(CENTRE_PRESSURE_ERROR));
     let of_ratios = [0.0, 0.25, 0.4].into_iter().flat_map(|ratio| {
         let own = move |r: &Record| Setup::<Mandel>::holds(r, |c| c.poisson_ratio == ratio);
         let column =
@@ -200,13 +191,20 @@ fn tables() -> Vec<ResultTable> {
         r.level == "n16" && Setup::<Mandel>::holds(r, |c| c.steps == 240) && others
     };
     vec![
-        ResultTable::new("mandel-cells", |r| r.is_default(), &[SCHEME], of_cells),
-        ResultTable::new(
-            "mandel-together",
-            |r| Setup::<Mandel>::holds(r, |c| c.shrinks_together()),
-            &[SCHEME],
-            of_together,
-        ),
+        ResultTable::of("mandel-cells", |r| r.is_default())
+            .by(&[SCHEME])
+            .columns(Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2)))
+            .column(Column::order(CENTRE_PRESSURE_ERROR_SPACE))
+            .columns(Column::levels(
+                [("n32", "from the difference equations, n = 32")],
+                EQUATIONS_DISTANCE,
+                scientific(1),
+            ))
+            .columns(Column::levels([("n32", "entries, n = 32")], ENTRIES, fixed(0))),
+        ResultTable::of("mandel-together", |r| Setup::<Mandel>::holds(r, |c| c.shrinks_together()))
+            .by(&[SCHEME])
+            .columns(Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2)))
+            .column(Column::order(CENTRE_PRESSURE_ERROR)),
         ResultTable::new("mandel-ratios", is_of_ratios, &[SCHEME], of_ratios),
     ]
 }

@@ -20,14 +20,8 @@ const TIMES: [&str; 3] = ["source=rates", "source=rates steps=8", "source=rates 
 choices! {
     /// Dependence of the conductivity on the porosity.
     enum Law { KozenyCarman = "kozeny-carman", Constant = "constant" }
-}
-
-choices! {
     /// Source of water.
     enum Source { Steps = "steps", Rates = "rates" }
-}
-
-choices! {
     /// Start of Newton's method.
     enum Start { Particles = "particles", Zero = "zero" }
 }
@@ -136,12 +130,8 @@ fn plan() -> Plan {
 fn tables() -> Vec<ResultTable> {
     let errors = |metric: Metric, title: &'static str, levels: usize| {
         let titles = LEVELS[..levels].iter().map(|(level, n)| (*level, format!("{title}, n = {n}")));
-        let mut columns = Column::levels(titles, metric, scientific(2));
-        columns.push(Column::row(format!("order of {title}"), move |runs, _| {
-            let found = order(runs.iter().copied(), metric.name);
-            found.map_or_else(|| "–".to_owned(), |o| o.to_string())
-        }));
-        columns
+        let order = Column::plain_order(format!("order of {title}"), metric);
+        Column::levels(titles, metric, scientific(2)).into_iter().chain([order])
     };
     // Errors of u and p over the cells.
     let cells = |name: &str, set: &'static str, levels: usize| {
@@ -163,24 +153,18 @@ fn tables() -> Vec<ResultTable> {
         cells("mms-poro-one-step", "steps=1", 4),
         cells("mms-poro-crossing", CROSSING, 4),
         cells("mms-poro-tight", TIGHT, 3),
-        ResultTable::new(
-            "mms-poro-steps",
-            |r| {
-                let changed = r.set.iter().any(|s| s.starts_with("source"));
-                r.level == "n32" && changed && r.changes_none_but(&["source", "steps"])
-            },
-            &[SCHEME],
-            Column::over(counts, steps, PRESSURE_L2, scientific(2)),
-        ),
+        ResultTable::of("mms-poro-steps", |r| {
+            let changed = r.set.iter().any(|s| s.starts_with("source"));
+            r.level == "n32" && changed && r.changes_none_but(&["source", "steps"])
+        })
+        .by(&[SCHEME])
+        .columns(Column::over(counts, steps, PRESSURE_L2, scientific(2))),
         // Small and large motions.
-        ResultTable::new(
-            "mms-poro-predictor",
-            |r| {
-                let own = r.level == "n16" && r.basis() == Gimp;
-                own && r.changes_none_but(&["predictor", "amplitude"])
-            },
-            &[SCHEME],
-            predictors,
-        ),
+        ResultTable::of("mms-poro-predictor", |r| {
+            let own = r.level == "n16" && r.basis() == Gimp;
+            own && r.changes_none_but(&["predictor", "amplitude"])
+        })
+        .by(&[SCHEME])
+        .columns(predictors),
     ]
 }

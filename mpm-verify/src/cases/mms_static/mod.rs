@@ -69,17 +69,15 @@ pub(super) fn case() -> Case {
     .watched(&["displacement_l2", "newton_iterations"])
     .cost(|spec| 1e-4 * spec.level.h.powi(-3))
     .begun(run::begin)
-    .tables(vec![
-        over_cells("mms-static", ""),
-        over_cells("mms-static-soft", SOFT),
-        over_cells("mms-static-pressure", PRESSED),
-        over_ratios("mms-static-ratios", tables::relative_error, share(2)),
-        over_ratios(
-            "mms-static-iterations",
-            |r| r.metric(NEWTON_ITERATIONS) / r.work.steps as f64,
-            fixed(1),
-        ),
-    ])
+    .table(over_cells("mms-static", ""))
+    .table(over_cells("mms-static-soft", SOFT))
+    .table(over_cells("mms-static-pressure", PRESSED))
+    .table(over_ratios("mms-static-ratios", tables::relative_error, share(2)))
+    .table(over_ratios(
+        "mms-static-iterations",
+        |r| r.metric(NEWTON_ITERATIONS) / r.work.steps as f64,
+        fixed(1),
+    ))
 }
 
 fn plan() -> Plan {

@@ -80,10 +80,7 @@ impl Analysis for Clouds {
     }
 
     fn rows(&self) -> usize {
-        match self.varies() {
-            true => self.setup.seeds,
-            false => 1,
-        }
+        if self.setup.layout == Layout::Lattice { 1 } else { self.setup.seeds }
     }
 
     fn analyse(&self, k: usize) -> Result<Cloud, Fault> {
@@ -171,11 +168,6 @@ impl Clouds {
             !is(Layout::Holes) || p % (n * n) != lacks
         };
         (0..count).filter(stays).map(place).collect()
-    }
-
-    /// Whether the next cloud is another one.
-    fn varies(&self) -> bool {
-        self.setup.layout != Layout::Lattice
     }
 
     fn particles_of(&self, k: usize) -> Result<Particles<2>, Fault> {

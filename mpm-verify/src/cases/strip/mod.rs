@@ -36,9 +36,6 @@ const UNIFORM: &str = "duration=1e10 half_width=5 law=cam-clay load=1e5";
 choices! {
     /// Law of the soil.
     enum Soil { Elastic = "elastic", CamClay = "cam-clay" }
-}
-
-choices! {
     /// The prescribed quantity.
     enum Control { Load = "load", Settlement = "settlement" }
 }
@@ -250,57 +247,51 @@ fn tables() -> Vec<ResultTable> {
         let titles = LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}")));
         Column::levels(titles, metric, format)
     };
-    let iterations = || Column::metric("Newton iterations", NEWTON_ITERATIONS, fixed(0));
-    let mut of_small = by_level(SETTLEMENT_RATIO, "settlement over theirs", fixed(4));
-    of_small.extend(by_level(PRESSURE_ERROR, "error of p/q", share(2)));
-    let mut of_large = by_level(SETTLEMENT, "settlement/B", fixed(4));
-    of_large.extend(by_level(ROUGHNESS, "roughness", share(3)));
-    of_large.push(Column::row("order of roughness", |runs, _| {
-        let found = order(runs.iter().copied(), ROUGHNESS.name);
-        found.map_or_else(|| "–".to_owned(), |o| o.to_string())
-    }));
-    of_large.extend(Column::levels([("b4", "p/q least")], LEAST_PRESSURE, fixed(3)));
-    of_large.extend(Column::levels([("b4", "q (kPa)")], LAST_LOAD, fixed(2).times(1e-3)));
-    let of_steps = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(4)),
-        Column::metric("last load (kPa)", LAST_LOAD, fixed(2).times(1e-3)),
-        iterations(),
-    ];
-    let of_ghosts = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(4)),
-        Column::metric("roughness", ROUGHNESS, share(3)),
-        Column::metric("p/q least", LEAST_PRESSURE, fixed(3)),
-        iterations(),
-    ];
     let of_limit = LEVELS.map(|(level, n)| {
         let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).of(move |r| r.level == level)
     });
-    let of_square = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(6)),
-        Column::metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4)),
-        Column::metric("error of p/q", PRESSURE_ERROR, share(2)),
-        Column::metric("roughness", ROUGHNESS, share(3)),
-        iterations(),
-        Column::metric("entries of a matrix (10⁶)", ENTRIES, fixed(2).times(1e-6)),
-        Column::cpu(),
-    ];
     let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
     let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
     let is_of_ghosts = move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
     vec![
-        ResultTable::new("strip-small", is_small, &[WATER, SCHEME], of_small),
-        ResultTable::new("strip-large", is_large, &[SOIL, SCHEME], of_large),
-        ResultTable::new("strip-steps", is_of_steps, &[SOIL, STEPS], of_steps),
-        ResultTable::new("strip-ghosts", is_of_ghosts, &[GHOST_U, GHOST_P], of_ghosts),
+        ResultTable::of("strip-small", is_small)
+            .by(&[WATER, SCHEME])
+            .columns(by_level(SETTLEMENT_RATIO, "settlement over theirs", fixed(4)))
+            .columns(by_level(PRESSURE_ERROR, "error of p/q", share(2))),
+        ResultTable::of("strip-large", is_large)
+            .by(&[SOIL, SCHEME])
+            .columns(by_level(SETTLEMENT, "settlement/B", fixed(4)))
+            .columns(by_level(ROUGHNESS, "roughness", share(3)))
+            .column(Column::plain_order("order of roughness", ROUGHNESS))
+            .columns(Column::levels([("b4", "p/q least")], LEAST_PRESSURE, fixed(3)))
+            .columns(Column::levels([("b4", "q (kPa)")], LAST_LOAD, fixed(2).times(1e-3))),
+        ResultTable::of("strip-steps", is_of_steps)
+            .by(&[SOIL, STEPS])
+            .metric("settlement/B", SETTLEMENT, fixed(4))
+            .metric("last load (kPa)", LAST_LOAD, fixed(2).times(1e-3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
+        ResultTable::of("strip-ghosts", is_of_ghosts)
+            .by(&[GHOST_U, GHOST_P])
+            .metric("settlement/B", SETTLEMENT, fixed(4))
+            .metric("roughness", ROUGHNESS, share(3))
+            .metric("p/q least", LEAST_PRESSURE, fixed(3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
         ResultTable::new("strip-limit", is_limit, &[GIVEN, STEPS, SCHEME], of_limit),
-        ResultTable::new(
-            "strip-uniform",
-            |r| is_set_but_steps(r, UNIFORM),
-            &[STEPS],
-            [Column::metric("error of settlement", UNIFORM_ERROR, share(3))],
+        ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]).metric(
+            "error of settlement",
+            UNIFORM_ERROR,
+            share(3),
         ),
-        ResultTable::new("strip-square", |r| holds(r, |s| s.dimension == 3), &[LOADED, WATER, SCHEME, SIZE], of_square),
+        ResultTable::of("strip-square", |r| holds(r, |s| s.dimension == 3))
+            .by(&[LOADED, WATER, SCHEME, SIZE])
+            .metric("settlement/B", SETTLEMENT, fixed(6))
+            .metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4))
+            .metric("error of p/q", PRESSURE_ERROR, share(2))
+            .metric("roughness", ROUGHNESS, share(3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0))
+            .metric("entries of a matrix (10⁶)", ENTRIES, fixed(2).times(1e-6))
+            .cpu(),
     ]
 }

@@ -157,25 +157,22 @@ fn tables() -> Vec<ResultTable> {
     let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
     let shares = SHARES.map(|share| (share, format!("r = {share:.3}")));
     let counts = [5.0, 10.0, 20.0, 40.0, 80.0].map(|n| (n, format!("{n} steps")));
-    let mut of_cells = Column::levels(cells, PRESSURE_L2_STEPS, scientific(2));
-    of_cells.push(Column::order(PRESSURE_L2_STEPS));
-    of_cells.extend(Column::levels([("n160", "entries, n = 160")], ENTRIES, fixed(0)));
     let share = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| c.share());
     let steps = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| f64::from(c.steps));
     vec![
-        ResultTable::new("terzaghi-cells", |r| r.is_default(), &[SCHEME], of_cells),
-        ResultTable::new(
-            "terzaghi-first-step",
-            move |r| r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"]),
-            &[SCHEME],
-            Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2)),
-        ),
-        ResultTable::new(
-            "terzaghi-steps",
-            |r| r.level == "n80" && r.changes_none_but(&["steps"]),
-            &[SCHEME],
-            Column::over(counts, steps, PRESSURE_L2, scientific(2)),
-        ),
+        ResultTable::of("terzaghi-cells", |r| r.is_default())
+            .by(&[SCHEME])
+            .columns(Column::levels(cells, PRESSURE_L2_STEPS, scientific(2)))
+            .column(Column::order(PRESSURE_L2_STEPS))
+            .columns(Column::levels([("n160", "entries, n = 160")], ENTRIES, fixed(0))),
+        ResultTable::of("terzaghi-first-step", move |r| {
+            r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"])
+        })
+        .by(&[SCHEME])
+        .columns(Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2))),
+        ResultTable::of("terzaghi-steps", |r| r.level == "n80" && r.changes_none_but(&["steps"]))
+            .by(&[SCHEME])
+            .columns(Column::over(counts, steps, PRESSURE_L2, scientific(2))),
     ]
 }
 

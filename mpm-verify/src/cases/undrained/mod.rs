@@ -13,14 +13,8 @@ const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
 choices! {
     /// Shape of the body.
     enum Domain { Square = "square", Ellipse = "ellipse" }
-}
-
-choices! {
     /// Places of the particles' domains.
     enum Layout { Aligned = "aligned", Across = "across" }
-}
-
-choices! {
     /// Functions of the pressure.
     enum PressureFunctions { Same = "same", Linear = "linear" }
 }
@@ -180,10 +174,11 @@ fn tables() -> Vec<ResultTable> {
         Column::levels(titles, metric, format)
     };
     let numbers = |name: &str, shows: fn(&Record) -> bool| {
-        let mut columns = by_level("β", INF_SUP, fixed(4));
-        columns.push(Column::order(INF_SUP).titled("order in h (between levels)"));
-        columns.extend(Column::levels([("n16", "without effect, n = 16")], ZERO_MODES, fixed(0)));
-        ResultTable::new(name, shows, &[SCHEME], columns)
+        ResultTable::of(name, shows)
+            .by(&[SCHEME])
+            .columns(by_level("β", INF_SUP, fixed(4)))
+            .column(Column::order(INF_SUP).titled("order in h (between levels)"))
+            .columns(Column::levels([("n16", "without effect, n = 16")], ZERO_MODES, fixed(0)))
     };
     let errors = [
         by_level("u", DISPLACEMENT_ERROR, share(2)),
