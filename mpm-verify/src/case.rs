@@ -8,7 +8,7 @@ use crate::metric::{Metric, Quantity, Sweep};
 use crate::parameter::{Parameter, ParameterSet, Parameters};
 use crate::problem::Problem;
 use crate::record::Record;
-use crate::results::{Column, ResultTable};
+use crate::results::{Column, ResultTable, headline};
 use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
@@ -67,6 +67,19 @@ pub struct FieldView {
     pub window: [(f64, f64); 2],
 }
 
+impl FieldView {
+    /// The particles at the end, by column and label of their values, range of these, and window.
+    pub(crate) fn at_end(names: [&'static str; 2], range: (f64, f64), window: [(f64, f64); 2]) -> Option<Self> {
+        let [value, label] = names;
+        Some(Self { time: None, value, label, range, window })
+    }
+
+    /// The same at a `time` (s).
+    pub(crate) fn at(time: f64, names: [&'static str; 2], range: (f64, f64), window: [(f64, f64); 2]) -> Option<Self> {
+        Self::at_end(names, range, window).map(|view| Self { time: Some(time), ..view })
+    }
+}
+
 /// Begins a run of a case.
 pub type Begin = Box<dyn Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync>;
 
@@ -81,7 +94,7 @@ pub struct Case {
     /// References with their uncertainty.
     pub references: Vec<String>,
     /// Limits: claims that the case does not support.
-    pub limits: &'static [&'static str],
+    pub limits: Vec<&'static str>,
     /// Parameters.
     pub parameters: Vec<Parameter>,
     /// Levels, coarsest first.
@@ -154,7 +167,7 @@ impl Case {
             title,
             description: "",
             references: Vec::new(),
-            limits: &[],
+            limits: Vec::new(),
             parameters,
             levels: Vec::new(),
             plan: Vec::new(),
@@ -175,6 +188,163 @@ impl Case {
             tables: Vec::new(),
             breaks_down: |_| None,
         }
+    }
+
+    /// With the levels and the runs of a plan.
+    pub(crate) fn planned(self, plan: Plan) -> Self {
+        Self { levels: plan.levels, plan: plan.families, ..self }
+    }
+
+    /// With a description in a few lines.
+    pub(crate) fn described(self, description: &'static str) -> Self {
+        Self { description, ..self }
+    }
+
+    /// Adds a reference with its uncertainty.
+    pub(crate) fn reference(mut self, reference: &str) -> Self {
+        self.references.push(reference.to_owned());
+        self
+    }
+
+    /// Replaces all references.
+    pub(crate) fn references(self, references: Vec<String>) -> Self {
+        Self { references, ..self }
+    }
+
+    /// Adds a limit: a claim that the case does not support.
+    pub(crate) fn limit(mut self, limit: &'static str) -> Self {
+        self.limits.push(limit);
+        self
+    }
+
+    /// Adds a quantity for which the case is run: see [`Wanted::new`].
+    pub(crate) fn wanted(mut self, name: &'static str, title: &'static str, checks: &'static str) -> Self {
+        self.wanted.push(Wanted::new(name, title, checks));
+        self
+    }
+
+    /// Changes the wanted quantity that was added last.
+    fn rewanted(mut self, change: impl FnOnce(Wanted) -> Wanted) -> Self {
+        let last = self.wanted.pop().map(change);
+        self.wanted.extend(last);
+        self
+    }
+
+    /// The wanted quantity that was added last is missed by these limits: see [`Wanted::missed_by`].
+    pub(crate) fn missed_by(self, limits: &'static str) -> Self {
+        self.rewanted(|wanted| wanted.missed_by(limits))
+    }
+
+    /// The same quantity is judged where these checks are: see [`Wanted::firmly_by`].
+    pub(crate) fn firmly_by(self, checks: &'static str) -> Self {
+        self.rewanted(|wanted| wanted.firmly_by(checks))
+    }
+
+    /// The same quantity may have no reference: see [`Wanted::where_referenced`].
+    pub(crate) fn where_referenced(self) -> Self {
+        self.rewanted(Wanted::where_referenced)
+    }
+
+    /// Without the wanted quantities, the headlines and the studied quantities so far.
+    pub(crate) fn anew(self) -> Self {
+        Self { wanted: Vec::new(), headlines: Vec::new(), quantities: Vec::new(), ..self }
+    }
+
+    /// With other metrics.
+    pub(crate) fn metrics(self, metrics: Vec<Metric>) -> Self {
+        Self { metrics, ..self }
+    }
+
+    /// With these checks.
+    pub(crate) fn checks(self, checks: Vec<Check>) -> Self {
+        Self { checks, ..self }
+    }
+
+    /// Adds a column of the table of results: see [`headline`].
+    pub(crate) fn headline(mut self, metric: Metric, title: &str, factor: f64, decimals: usize) -> Self {
+        self.headlines.push(headline(metric, title, factor, decimals));
+        self
+    }
+
+    /// Replaces all columns of the table of results.
+    pub(crate) fn headlines(self, headlines: Vec<Column>) -> Self {
+        Self { headlines, ..self }
+    }
+
+    /// Adds a quantity whose convergence is studied.
+    pub(crate) fn quantity(mut self, quantity: Quantity) -> Self {
+        self.quantities.push(quantity);
+        self
+    }
+
+    /// Replaces all quantities whose convergence is studied.
+    pub(crate) fn quantities(self, quantities: Vec<Quantity>) -> Self {
+        Self { quantities, ..self }
+    }
+
+    /// Adds a parameter over whose values the errors are drawn.
+    pub(crate) fn sweep(mut self, sweep: Sweep) -> Self {
+        self.sweeps.push(sweep);
+        self
+    }
+
+    /// With these columns of the time series for a first look.
+    pub(crate) fn watched(self, watched: &'static [&'static str]) -> Self {
+        Self { watched, ..self }
+    }
+
+    /// With a particle field that is kept among the goldens.
+    pub(crate) fn field(self, field: Option<FieldView>) -> Self {
+        Self { field, ..self }
+    }
+
+    /// With a sketch of the geometry.
+    pub(crate) fn sketch(self, sketch: Sketch) -> Self {
+        Self { sketch, ..self }
+    }
+
+    /// With the relative cost of a run.
+    pub(crate) fn cost(self, cost: impl Fn(&RunSpec) -> f64 + Send + Sync + 'static) -> Self {
+        Self { cost: Box::new(cost), ..self }
+    }
+
+    /// With the parameters at which schemes are run at the most levels.
+    pub(crate) fn ladder(self, ladder: &'static [&'static str]) -> Self {
+        Self { ladder, ..self }
+    }
+
+    /// With the runs that stand for its own: see [`Case::own_runs`].
+    pub(crate) fn own_runs(self, own_runs: fn(&[Record]) -> Vec<&Record>) -> Self {
+        Self { own_runs, ..self }
+    }
+
+    /// With another beginning of a run.
+    pub(crate) fn begun(
+        self,
+        begin: impl Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync + 'static,
+    ) -> Self {
+        Self { begin: Box::new(begin), ..self }
+    }
+
+    /// With pictures of its own.
+    pub(crate) fn pictures(self, pictures: fn(&mut Gallery) -> Result<(), Error>) -> Self {
+        Self { pictures, ..self }
+    }
+
+    /// Adds a table of its results.
+    pub(crate) fn table(mut self, table: ResultTable) -> Self {
+        self.tables.push(table);
+        self
+    }
+
+    /// With tables of its results.
+    pub(crate) fn tables(self, tables: Vec<ResultTable>) -> Self {
+        Self { tables, ..self }
+    }
+
+    /// With reasons why a run is known to break down before its end.
+    pub(crate) fn breaks_down(self, breaks_down: fn(&Record) -> Option<&'static str>) -> Self {
+        Self { breaks_down, ..self }
     }
 
     /// Verdicts on a run that has come to its end, those on its wanted quantities first.
@@ -262,8 +432,8 @@ pub(crate) struct Plan {
 
 impl Plan {
     /// An empty plan over `levels`.
-    pub(crate) fn of(levels: &[Level]) -> Self {
-        Self { levels: levels.to_vec(), families: Vec::new() }
+    pub(crate) fn of(levels: impl IntoIterator<Item = Level>) -> Self {
+        Self { levels: levels.into_iter().collect(), families: Vec::new() }
     }
 
     /// Adds runs of `schemes` at the levels of these names, apart by spaces, with the parameters `set`, as `name=value` apart by
@@ -291,11 +461,6 @@ impl Plan {
         sets: impl IntoIterator<Item = S>,
     ) -> Self {
         sets.into_iter().fold(self, |plan, set| plan.runs(tier, levels, schemes, set.as_ref()))
-    }
-
-    /// The families of runs, in the order in which they were added.
-    pub(crate) fn done(self) -> Vec<Family> {
-        self.families
     }
 }
 

@@ -110,6 +110,23 @@ pub struct Sweep {
     pub logarithmic: bool,
 }
 
+impl Sweep {
+    /// Over the values themselves.
+    pub(crate) const fn of(parameter: Parameter, label: &'static str) -> Self {
+        Self { parameter, label, abscissa: |value| value, logarithmic: false }
+    }
+
+    /// Drawn by the logarithm of the abscissa.
+    pub(crate) const fn logarithmic(self) -> Self {
+        Self { logarithmic: true, ..self }
+    }
+
+    /// Over another abscissa.
+    pub(crate) const fn over(self, abscissa: fn(f64) -> f64) -> Self {
+        Self { abscissa, ..self }
+    }
+}
+
 /// An error whose convergence is studied, by metric and label.
 pub(crate) const fn error(metric: Metric, label: &'static str) -> Quantity {
     Quantity { metric, label, is_error: true, order: None, uncertainty: None }

@@ -1,31 +1,43 @@
-//! The names that nearly every case uses.
+//! Names that cases share.
 
+pub(crate) use crate::accuracy::fit_order;
 pub(crate) use crate::case::Tier::{Long, Nightly, Pr, Quick};
-pub(crate) use crate::case::{Case, Family, FieldView, Plan};
+pub(crate) use crate::case::{Begin, Case, Family, FieldView, Plan};
 pub(crate) use crate::check::{Check, Finding};
 pub(crate) use crate::demand::{CheckOf, Demand, Over, Quantity, SLACK, same_but_scheme};
 pub(crate) use crate::draw::style::{history, series};
-pub(crate) use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
+pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields};
 pub(crate) use crate::error::Error;
+pub(crate) use crate::exact::{Exact, Material};
 pub(crate) use crate::figure::{Figure, Panel, sampled};
 pub(crate) use crate::gallery::Gallery;
-pub(crate) use crate::job::{Row, Snapshot, row};
+pub(crate) use crate::job::{Job, Row, Snapshot, row};
 pub(crate) use crate::metric::{Metric, Sweep, error, metrics, value};
-pub(crate) use crate::parameter::{choices, flag, parameters, real, whole};
+pub(crate) use crate::parameter::{Parameter, ParameterSet, Parameters, choices, flag, parameters, real, whole};
+pub(crate) use crate::probe::PointProbe;
 pub(crate) use crate::problem::{Columns, Phase, Problem, Rows};
-pub(crate) use crate::record::{Discretisation, Record, Status};
+pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};
 pub(crate) use crate::results::{
-    CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, headline, is_flip, order, percent, scientific, share,
+    BASIS, CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent, scientific, share,
 };
 pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};
 pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};
 pub(crate) use crate::scheme::SpaceName::{Equal, Ppp, TwoGrid};
 pub(crate) use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
 pub(crate) use crate::setup::{Run, Setup};
-pub(crate) use crate::sketch::{Shape, Sketch};
+pub(crate) use crate::sketch::Sketch;
 pub(crate) use crate::spec::{Level, RunSpec};
+pub(crate) use crate::statistics::{fit_line, rms};
 pub(crate) use crate::table::Table;
-pub(crate) use crate::wanted::Wanted;
-pub(crate) use mpm_core::stage::{End, Wall, WallKind};
-pub(crate) use mpm_core::{Axis, Body, Field, Grid, Particles, Scene, Side, Simulation};
+pub(crate) use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
+pub(crate) use mpm_core::explicit::courant_time_step;
+pub(crate) use mpm_core::explicit::transfer::Flip;
+pub(crate) use mpm_core::implicit::Stabilisation;
+pub(crate) use mpm_core::material::{Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength};
+pub(crate) use mpm_core::poro::{Conductivity, Water};
+pub(crate) use mpm_core::stage::{End, Gravity, Wall, WallKind};
+pub(crate) use mpm_core::{Axis, Body, Error as Fault, Field, Grid, Part, Particles, Scene, Side, Simulation};
+pub(crate) use mpm_solvers::{Solvable, Solved};
 pub(crate) use serde::{Deserialize, Serialize};
+pub(crate) use std::collections::BTreeMap;
+pub(crate) use std::f64::consts::{PI, SQRT_2, TAU};

@@ -159,9 +159,22 @@ impl Column {
 
     /// The observed order of a metric over the runs of the row.
     pub(crate) fn order(metric: Metric) -> Self {
+        Self::order_of(metric, |_| true)
+    }
+
+    /// The same over those that `converge`.
+    pub(crate) fn order_of(metric: Metric, converge: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
         Self::row("order ± (between levels)", move |runs, _| {
-            let found = order(runs.iter().copied(), metric.name);
+            let found = order(runs.iter().copied().filter(|r| converge(r)), metric.name);
             found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
+        })
+    }
+
+    /// The observed order of a metric over the runs of the row, without those between levels.
+    pub(crate) fn plain_order(title: impl Into<String>, metric: Metric) -> Self {
+        Self::row(title, move |runs, _| {
+            let found = order(runs.iter().copied(), metric.name);
+            found.map_or_else(|| "–".to_owned(), |o| o.to_string())
         })
     }
 
@@ -244,6 +257,56 @@ impl ResultTable {
             least: 1,
             across: false,
         }
+    }
+
+    /// Table of the runs that it `shows`, without labels and columns yet.
+    pub(crate) fn of(name: impl Into<String>, shows: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
+        Self::new(name, shows, &[], [])
+    }
+
+    /// With the labels that the runs of a row share.
+    pub(crate) fn by(self, labels: &[Label]) -> Self {
+        Self { labels: labels.to_vec(), ..self }
+    }
+
+    /// Adds columns.
+    pub(crate) fn columns(mut self, columns: impl IntoIterator<Item = Column>) -> Self {
+        self.columns.extend(columns);
+        self
+    }
+
+    /// Adds a column.
+    pub(crate) fn column(self, column: Column) -> Self {
+        self.columns([column])
+    }
+
+    /// Adds a metric of a run.
+    pub(crate) fn metric(self, title: impl Into<String>, metric: Metric, format: Format) -> Self {
+        self.column(Column::metric(title, metric, format))
+    }
+
+    /// Adds a number of a run.
+    pub(crate) fn value(
+        self,
+        title: impl Into<String>,
+        value: impl Fn(&Record) -> f64 + Send + Sync + 'static,
+        format: Format,
+    ) -> Self {
+        self.column(Column::value(title, value, format))
+    }
+
+    /// Adds a text of a run.
+    pub(crate) fn text(
+        self,
+        title: impl Into<String>,
+        text: impl Fn(&Record) -> String + Send + Sync + 'static,
+    ) -> Self {
+        self.column(Column::text(title, text))
+    }
+
+    /// Adds the processor time (s).
+    pub(crate) fn cpu(self) -> Self {
+        self.column(Column::cpu())
     }
 
     /// Bases by remedies, of runs that tell no more apart.

@@ -59,3 +59,50 @@ pub struct Sketch {
     /// In words, for those who can't see it.
     pub description: &'static str,
 }
+
+impl Sketch {
+    /// Without shapes yet.
+    pub(crate) fn of(description: &'static str) -> Self {
+        Self { shapes: Vec::new(), description }
+    }
+
+    fn with(mut self, shape: Shape) -> Self {
+        self.shapes.push(shape);
+        self
+    }
+
+    /// Adds a body with these corners.
+    pub(crate) fn body(self, corners: impl IntoIterator<Item = Point>) -> Self {
+        self.with(Shape::Body(corners.into_iter().collect()))
+    }
+
+    /// Adds a side that is held: see [`Shape::Held`].
+    pub(crate) fn held(self, from: Point, to: Point) -> Self {
+        self.with(Shape::Held(from, to))
+    }
+
+    /// Adds a load, with the arrow's tip at `to`.
+    pub(crate) fn load(self, from: Point, to: Point) -> Self {
+        self.with(Shape::Load(from, to))
+    }
+
+    /// Adds upright loads at abscissae `at`, each from the first of two heights to the second.
+    pub(crate) fn loads(self, at: impl Iterator<Item = f64>, [from, to]: [f64; 2]) -> Self {
+        at.fold(self, |sketch, x| sketch.load([x, from], [x, to]))
+    }
+
+    /// Adds a length from one point to another.
+    pub(crate) fn length(self, from: Point, to: Point, label: &str) -> Self {
+        self.with(Shape::length(from, to, label))
+    }
+
+    /// Adds a place where something is measured.
+    pub(crate) fn probe(self, at: Point, label: &str) -> Self {
+        self.with(Shape::Probe { at, label: label.to_owned() })
+    }
+
+    /// Adds text about a point.
+    pub(crate) fn note(self, at: Point, text: &str) -> Self {
+        self.with(Shape::note(at, text))
+    }
+}

@@ -251,10 +251,10 @@ impl ParameterSet for () {
     }
 }
 
-/// An enumeration whose variants are the words of a parameter.
+/// Enumerations, each with the words of a parameter as its variants.
 #[macro_export]
 macro_rules! choices {
-    ($(#[$doc:meta])* $seen:vis enum $name:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
+    ($($(#[$doc:meta])* $seen:vis enum $name:ident { $($variant:ident = $word:literal),+ $(,)? })+) => {$(
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
         $seen enum $name { $(#[doc = concat!("`", $word, "`.")] $variant),+ }
@@ -277,7 +277,7 @@ macro_rules! choices {
                 }
             }
         }
-    };
+    )+};
 }
 pub use choices;
 

@@ -1,17 +1,11 @@
 //! Cases in which nothing moves: a row is an analysis of the discretisation.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::job::{Column, Job, Row};
-use crate::metric::Metric;
-use crate::parameter::{ParameterSet, Parameters};
+use crate::cases::prelude::*;
+use crate::job::Column;
 use crate::problem::measured;
-use crate::record::{Discretisation, Measured, WorkDone};
-use crate::setup::Setup;
-use crate::spec::RunSpec;
+use crate::record::Measured;
 use mpm_core::{Memory, MemoryError, Saved};
-use serde::{Serialize, de::DeserializeOwned};
-use std::collections::BTreeMap;
+use serde::de::DeserializeOwned;
 
 /// An analysis of a discretisation in the plane.
 pub(super) trait Analysis: Sized + Send {
@@ -63,9 +57,6 @@ pub(super) fn case_of<A: Analysis + 'static>(name: &'static str, title: &'static
 }
 
 /// Begins a run of the analysis `A`.
-///
-/// # Errors
-/// As [`Analysis::new`].
 pub(super) fn begin<A: Analysis + 'static>(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
     let analysis = A::new(Setup::of_spec(spec, parameters)?)?;
     let found = Vec::new();

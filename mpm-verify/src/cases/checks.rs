@@ -1,11 +1,7 @@
 //! Judgements that checks of several cases share.
 
-use crate::accuracy::fit_order;
-use crate::metric::Metric;
-use crate::parameter::ParameterSet;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use mpm_core::monitor::Convergence;
-use std::collections::BTreeMap;
 
 /// Levels or steps that decide an order.
 pub(super) const DECIDING: usize = 3;
@@ -37,6 +33,21 @@ pub(super) fn quadratic<P: ParameterSet>(
 /// The last [`DECIDING`] of some runs, coarsest first; nothing of fewer.
 pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {
     runs.get(runs.len().checked_sub(DECIDING)?..)
+}
+
+/// Runs by what those of a set have in common, each set coarsest first.
+pub(super) fn ladders_by<'a, K: Ord>(
+    runs: impl Iterator<Item = &'a Record>,
+    key: impl Fn(&'a Record) -> K,
+) -> BTreeMap<K, Vec<&'a Record>> {
+    let mut ladders: BTreeMap<K, Vec<&Record>> = BTreeMap::new();
+    for r in runs {
+        ladders.entry(key(r)).or_default().push(r);
+    }
+    for ladder in ladders.values_mut() {
+        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+    }
+    ladders
 }
 
 /// Observed order of a metric over the abscissa `over` of some runs, coarsest first; NaN if it follows no power law.

@@ -2,13 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/column.md`.
 
-use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::DENSITY;
+use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 /// Half a million steps at h = 0.25 m.
 const HALF_A_MILLION: &str = "duration=5.04";
@@ -38,55 +36,46 @@ impl Known for WaterColumn {
 }
 
 pub(super) fn case() -> Case {
-    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = pairs(&SMOOTH, &REMEDIES);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
     let mut pr = pairs(&[Gimp], &[RemedyName::None, FbarRecursive, FbarConsistent]);
     pr.extend(pairs(&[Bspline2], &[FbarConsistent]));
-    Case {
-        references: vec![
-            "Exact state of rest at finite compression, docs/exact.md.".to_owned(),
-            "Creep of fbar-recursive: (D/K) ∂p/∂z with D = ½ s² h²/Δt, docs/method.md.".to_owned(),
+    let plan = Plan::of(levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]))
+        .runs(Pr, "h0.25", &pr, "")
+        .runs(Nightly, "h0.25 h0.125", &all, "")
+        .runs(Nightly, "h0.25", &few, HALF_A_MILLION);
+    known_case::<2, WaterColumn>([
+        "column",
+        "Hydrostatic column",
+        "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
+    ])
+    .planned(plan)
+    .reference("Exact state of rest at finite compression, docs/exact.md.")
+    .reference("Creep of fbar-recursive: (D/K) ∂p/∂z with D = ½ s² h²/Δt, docs/method.md.")
+    .limit("Nothing mixes here: what moving particles bring about shows in standing-wave.")
+    .limit("Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.")
+    .anew()
+    .wanted("pressure", "pressure at the floor at rest", "base-pressure")
+    .missed_by("creep")
+    .checks(checks())
+    .headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (10⁻⁶)", 1e6, 4)
+    .headline(TRUE_J_DRIFT_PER_1E5_STEPS, "drift of J per 10⁵ steps (10⁻⁶)", 1e6, 3)
+    .headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3)
+    .headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4)
+    .headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1)
+    .pictures(pictures)
+    .tables(vec![tables::metrics(
+        "column",
+        HALF_A_MILLION,
+        [
+            ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
+            ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
+            ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
+            ("last/middle third", KINETIC_GROWTH, SHORT),
+            ("pressure at the floor (kPa; exact 19.57)", BASE_PRESSURE, fixed(2).times(1e-3)),
+            ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
         ],
-        limits: &[
-            "Nothing mixes here: what moving particles bring about shows in standing-wave.",
-            "Cubic splines on this lattice are not in balance with the exact pressure to 10⁻³ of the weight; the column circulates slowly with every remedy and is judged no further.",
-        ],
-        plan: Plan::of(&levels)
-            .runs(Pr, "h0.25", &pr, "")
-            .runs(Nightly, "h0.25 h0.125", &all, "")
-            .runs(Nightly, "h0.25", &few, HALF_A_MILLION)
-            .done(),
-        levels,
-        wanted: vec![Wanted::new("pressure", "pressure at the floor at rest", "base-pressure").missed_by("creep")],
-        checks: checks(),
-        headlines: vec![
-            headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (10⁻⁶)", 1e6, 4),
-            headline(TRUE_J_DRIFT_PER_1E5_STEPS, "drift of J per 10⁵ steps (10⁻⁶)", 1e6, 3),
-            headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3),
-            headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4),
-            headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1),
-        ],
-        quantities: Vec::new(),
-        pictures,
-        tables: vec![tables::metrics(
-            "column",
-            HALF_A_MILLION,
-            [
-                ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
-                ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
-                ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
-                ("last/middle third", KINETIC_GROWTH, SHORT),
-                ("pressure at the floor (kPa; exact 19.57)", BASE_PRESSURE, fixed(2).times(1e-3)),
-                ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
-            ],
-        )],
-        ..known_case::<2, WaterColumn>([
-            "column",
-            "Hydrostatic column",
-            "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
-        ])
-    }
+    )])
 }
 
 /// Whether a mode that the average can't see grows with this scheme until it rules the motion.

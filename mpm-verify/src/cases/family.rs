@@ -1,10 +1,7 @@
 //! Families of runs that several problems have.
 
-use crate::case::{Family, Tier};
-use crate::record::Record;
-use crate::results::{Column, Label, ResultTable, is_flip};
-use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, TransferName};
-use crate::spec::Level;
+use crate::case::Tier;
+use crate::prelude::*;
 
 /// Every basis.
 pub(super) const BASES: [BasisName; 4] = [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
@@ -22,6 +19,12 @@ pub(super) const REMEDIES: [RemedyName; 5] = [
 pub(super) fn levels<const N: usize>(side: f64, names: [(&'static str, f64); N]) -> Vec<Level> {
     let level = |(name, n)| Level { name, h: side / n };
     names.into_iter().map(level).collect()
+}
+
+/// Cost of a step with the remedy of a run, of those in the order of [`REMEDIES`].
+pub(super) fn remedy_cost(spec: &RunSpec, costs: [f64; 5]) -> f64 {
+    let of = REMEDIES.into_iter().zip(costs).find(|(remedy, _)| *remedy == spec.scheme.remedy());
+    of.map_or(1.0, |(_, cost)| cost)
 }
 
 /// Runs of `schemes` at `levels` with the parameters `set`, from the tier `tier` on.
@@ -62,12 +65,6 @@ pub(super) fn other_transfers() -> Vec<Scheme> {
     };
     let transfers = [TransferName::Apic, TransferName::Xpic2];
     transfers.into_iter().flat_map(with).collect()
-}
-
-/// The main pairs with more particles per cell than the case's own two per direction.
-pub(super) fn more_particles(tier: Tier, levels: &[Level]) -> [Family; 2] {
-    let sets: [&'static [&'static str]; 2] = [&["ppc_per_direction=3"], &["ppc_per_direction=4"]];
-    sets.map(|set| family(tier, levels, &main_pairs(), set))
 }
 
 /// Table of the results of other transfers and particle numbers per direction beside FLIP with the case's default of

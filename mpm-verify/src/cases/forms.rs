@@ -225,9 +225,6 @@ impl Field {
 }
 
 /// The grid of a pressure on two grids: of cells twice as large between the same ends.
-///
-/// # Errors
-/// As [`Grid::new`].
 pub(super) fn coarse(grid: &Grid<2>) -> Result<Grid<2>, Error> {
     let axes = grid.axes.map(|axis| mpm_core::Axis { cells: axis.cells / 2, ..axis });
     Grid::new(2.0 * grid.h, axes)

@@ -2,14 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::DYNAMIC;
+use crate::cases::prelude::*;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
 use crate::exact::common::AMPLITUDE;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::PI;
 
 #[derive(Debug, Clone)]
 struct Axes;
@@ -23,47 +20,28 @@ impl Known for Axes {
 }
 
 pub(super) fn case() -> Case {
-    let case = known_case::<2, Axes>([
-        "mms-axis",
-        "Axis-aligned displacement",
-        "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
-    ]);
     // Half waves across the body, a wave by default.
     let mut checks = of_motion(between_rollers, Wave::pressure(|p| PI * p.number(HALF_WAVES)));
     checks.push(stress_order(between_rollers));
     checks.extend(order_in_time());
-    Case {
-        references: vec![
-            "Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.",
-            "At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.",
-            "Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.",
-        ],
-        plan: plan(&case.levels),
-        checks,
-        sweeps: vec![
-            Sweep {
-                parameter: PPC_PER_DIRECTION,
-                label: "particles per direction",
-                abscissa: |n| n,
-                logarithmic: false,
-            },
-            Sweep {
-                parameter: CFL,
-                label: "CFL number",
-                abscissa: |c| c,
-                logarithmic: true,
-            },
-        ],
-        begin: Box::new(begin::<Axes>),
-        tables: tables(),
-        ..case
-    }
+    known_case::<2, Axes>([
+        "mms-axis",
+        "Axis-aligned displacement",
+        "A neo-Hookean body between rollers is stretched and compressed along its axes by a body force that makes the motion known. Orders of accuracy in space and time for every basis, remedy and transfer; small displacements and forced crossing of cells.",
+    ])
+    .planned(plan())
+    .reference("Exact solution: Wallstedt & Guilkey 2008, doi:10.1016/j.jcp.2008.07.019, with a phase per axis; the balance of momentum is tested by eighth-order differences at random points.")
+    .limit("∂J/∂n = 0 at the walls: mms-wall-pressure tests what this problem hides there.")
+    .limit("At ν = 0.3 nothing locks; what averaging costs shows, what it is for doesn't.")
+    .limit("Two particles per direction leave a floor once they cross cells, and cubic splines with F̄ and two per direction break the pattern at large strain.")
+    .checks(checks)
+    .sweep(Sweep::of(PPC_PER_DIRECTION, "particles per direction"))
+    .sweep(Sweep::of(CFL, "CFL number").logarithmic())
+    .begun(begin::<Axes>)
+    .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let main = pairs(&SMOOTH, &[none, FbarRecursive, FbarRate, FbarConsistent]);
     let sound = |bases: &[BasisName]| pairs(bases, &[none, FbarRate, FbarConsistent]);
@@ -79,7 +57,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let smooth = implicit(&rules[..1], &SMOOTH, &[none]);
     let shorter = ["cfl=0.15", "cfl=0.075", "cfl=0.0375"];
     let densities = ["ppc_per_direction=1", MORE[0], MORE[1]];
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &large[..1], "")
         .runs(Pr, THREE, &main, "")
         .runs(Pr, THREE, &compared, "step_scaling=h2")
@@ -104,7 +82,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n16", &pair, shorter)
         .each(Nightly, "n32", &sound(&BASES), densities)
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

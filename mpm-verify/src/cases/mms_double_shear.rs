@@ -2,13 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
-use super::family::{BASES, REMEDIES, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
+use crate::cases::prelude::*;
 use crate::exact::double_shear::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::TAU;
 
 #[derive(Debug, Clone)]
 struct DoubleShear;
@@ -24,51 +21,41 @@ impl Known for DoubleShear {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
     // One wave across the body.
     let mut checks = of_motion(claim, Wave::shear(|_| TAU));
     checks.extend(locking());
-    Case {
-        references: vec![
-            "Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.".to_owned(),
+    known_case::<2, DoubleShear>([
+        "mms-double-shear",
+        "Double shear",
+        "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
+    ])
+    .planned(plan())
+    .reference("Exact solution: two shears in turn, x = X + A sin kY s, y = Y + A sin kx s; J = 1 exactly. The balance of momentum is tested by eighth-order differences at random points.")
+    .limit("No boundary: mms-vortex-box has walls.")
+    .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
+    .checks(checks)
+    .sweep(LOCKING_CURVE)
+    .breaks_down(|r| {
+        let scheme = (r.basis(), r.remedy()) == (Gimp, FbarTotal);
+        (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
+    })
+    .pictures(|gallery| mean_stress(gallery, "n64", 100.0))
+    .table(tables::own_orders("mms-double-shear"))
+    .table(tables::locking(
+        "mms-double-shear-locking",
+        [
+            ("n8, 0.4999", "n8", ""),
+            ("n16, 0.4999", "n16", ""),
+            ("n32, 0.4999", "n32", ""),
         ],
-        limits: &[
-            "No boundary: mms-vortex-box has walls.",
-            "As in mms-vortex-box, all runs take the steps of ν = 0.4999.",
-        ],
-        plan: plan(&levels),
-        levels,
-        checks,
-        sweeps: vec![LOCKING_CURVE],
-        breaks_down: |r| {
-            let scheme = (r.basis(), r.remedy()) == (Gimp, FbarTotal);
-            (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
-        },
-        pictures: |gallery| mean_stress(gallery, "n64", 100.0),
-        tables: vec![
-            tables::own_orders("mms-double-shear"),
-            tables::locking(
-                "mms-double-shear-locking",
-                [
-                    ("n8, 0.4999", "n8", ""),
-                    ("n16, 0.4999", "n16", ""),
-                    ("n32, 0.4999", "n32", ""),
-                ],
-            ),
-            tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]),
-        ],
-        ..known_case::<2, DoubleShear>([
-            "mms-double-shear",
-            "Double shear",
-            "A periodic body is sheared along x and then along y at constant volume: nearly incompressible, with cells crossed and without any boundary.",
-        ])
-    }
+    ))
+    .table(tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]))
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    Plan::of(levels)
+    Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &few[2..3], "")
         .runs(Pr, THREE, &[few[1], few[2], few[5]], "")
         .runs(Nightly, FOUR, &all, "")
@@ -77,7 +64,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, THREE, &all, "poisson_ratio=0.3")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.49")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.499")
-        .done()
 }
 
 fn claim(r: &Setup<()>) -> Claim {

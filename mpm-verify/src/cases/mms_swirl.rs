@@ -2,12 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
-use super::family::{main_pairs, pairs};
 use super::manufactured::*;
 use super::parameters::POISSON_RATIO;
+use crate::cases::prelude::*;
 use crate::exact::swirl::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 #[derive(Debug, Clone)]
 struct Swirl;
@@ -23,36 +21,26 @@ impl Known for Swirl {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..3].to_vec();
     let few = pairs(&SMOOTH, &COMPARED);
     let mut checks = of_motion(of_vortex, VORTEX);
     checks.extend(locking());
-    Case {
-        references: vec![
-            "Exact solution: the vortex in a box, its angle falling to zero at floor and ceiling; derived with the code, the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "Three levels, the coarsest with three cells across the radius of the vortex.",
-            "The steps are those of ν = 0.499.",
-        ],
-        plan: Plan::of(&levels)
-            .runs(Quick, "n8", &few[2..3], "")
-            .runs(Pr, "n8", &few, "")
-            .runs(Nightly, THREE, &few, "")
-            .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
-            .each(Nightly, "n8 n16", &main_pairs(), MORE)
-            .done(),
-        levels,
-        checks,
-        tables: vec![
-            tables::own_orders("mms-swirl"),
-            tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]),
-            tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]),
-        ],
-        ..known_case::<3, Swirl>([
-            "mms-swirl",
-            "Swirl in three dimensions",
-            "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",
-        ])
-    }
+    let plan = Plan::of(metre_levels()[..3].to_vec())
+        .runs(Quick, "n8", &few[2..3], "")
+        .runs(Pr, "n8", &few, "")
+        .runs(Nightly, THREE, &few, "")
+        .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
+        .each(Nightly, "n8 n16", &main_pairs(), MORE);
+    known_case::<3, Swirl>([
+        "mms-swirl",
+        "Swirl in three dimensions",
+        "The middle of a cube turns about the vertical by an angle that is largest in the centre and vanishes on all sides: isochoric, in three dimensions.",
+    ])
+    .planned(plan)
+    .reference("Exact solution: the vortex in a box, its angle falling to zero at floor and ceiling; derived with the code, the balance of momentum is tested by eighth-order differences at random points.")
+    .limit("Three levels, the coarsest with three cells across the radius of the vortex.")
+    .limit("The steps are those of ν = 0.499.")
+    .checks(checks)
+    .table(tables::own_orders("mms-swirl"))
+    .table(tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]))
+    .table(tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]))
 }

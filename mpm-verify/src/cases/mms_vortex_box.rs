@@ -2,12 +2,10 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::{DYNAMIC, POISSON_RATIO};
+use crate::cases::prelude::*;
 use crate::exact::vortex_box::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 #[derive(Debug, Clone)]
 struct Vortex;
@@ -22,41 +20,34 @@ impl Known for Vortex {
 }
 
 pub(super) fn case() -> Case {
-    let case = known_case::<2, Vortex>([
+    let mut checks = of_motion(of_vortex, VORTEX);
+    checks.extend(locking());
+    known_case::<2, Vortex>([
         "mms-vortex-box",
         "Vortex in a box",
         "The middle of a square turns by a radian while its sides stay: no volume changes, so the exact motion doesn't depend on Poisson's ratio, and the error at ν = 0.4999 over that at 0.3 is locking and nothing else.",
-    ]);
-    let mut checks = of_motion(of_vortex, VORTEX);
-    checks.extend(locking());
-    Case {
-        references: vec![
-            "Exact solution: a vortex after Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x, with a profile that is smooth and ends within the box; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "Rotation by up to one radian with F updated by I + Δt ∇v: the error in time is first order. All runs take the steps of ν = 0.4999, so that it is small and alike.",
-            "fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.",
-            "The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.",
-        ],
-        plan: plan(&case.levels),
-        checks,
-        sweeps: vec![LOCKING_CURVE],
-        breaks_down: |r| {
-            let known = [
-                (Bspline2, FbarRate, "n128"),
-                (Linear, FbarTotal, "n64"),
-                (Gimp, FbarTotal, "n64"),
-            ];
-            let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
-            (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
-        },
-        pictures: |gallery| mean_stress(gallery, "n32", 600.0),
-        tables: tables(),
-        ..case
-    }
+    ])
+    .planned(plan())
+    .reference("Exact solution: a vortex after Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x, with a profile that is smooth and ends within the box; the balance of momentum is tested by eighth-order differences at random points.")
+    .limit("Rotation by up to one radian with F updated by I + Δt ∇v: the error in time is first order. All runs take the steps of ν = 0.4999, so that it is small and alike.")
+    .limit("fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.")
+    .limit("The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.")
+    .checks(checks)
+    .sweep(LOCKING_CURVE)
+    .breaks_down(|r| {
+        let known = [
+            (Bspline2, FbarRate, "n128"),
+            (Linear, FbarTotal, "n64"),
+            (Gimp, FbarTotal, "n64"),
+        ];
+        let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
+        (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
+    })
+    .pictures(|gallery| mean_stress(gallery, "n32", 600.0))
+    .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let two = [Gimp, Bspline2];
     let few = pairs(&two, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
@@ -67,7 +58,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));
     let soft = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.499"];
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &few[2..3], "")
         .runs(Pr, THREE, &few, "")
         .runs(Pr, "n8 n16", &few, "poisson_ratio=0.3")
@@ -89,7 +80,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, THREE, &all, soft)
         .runs(Long, "n128", &all, "")
         .runs(Long, "n128", &other_transfers(), "")
-        .done()
 }
 
 fn tables() -> Vec<ResultTable> {

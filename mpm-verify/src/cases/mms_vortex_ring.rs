@@ -2,12 +2,9 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-vortex-ring.md`.
 
-use super::family::{main_pairs, other_transfers, pairs};
 use super::manufactured::*;
+use crate::cases::prelude::*;
 use crate::exact::vortex_ring::{ANGLE, ENTRY};
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::TAU;
 
 #[derive(Debug, Clone)]
 struct Ring;
@@ -27,38 +24,28 @@ const LARGE: f64 = 0.1;
 const EIGHTH: &str = "angle=0.7853981633974483";
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
     let few = main_pairs();
     let all = pairs(&[Gimp, Bspline2, Bspline3], &COMPARED);
     let all = [all, other_transfers()].concat();
-    Case {
-        references: vec![
-            "Exact solution: Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x; material at rest fills the square around the ring.".to_owned(),
-        ],
-        limits: &[
-            "h″ and with it the body force jumps at the two circles: order two in L2 at best, less in L∞.",
-            "At the angle of 45° of the literature the shear reaches 4.8: particles on fixed domains lose touch and nothing converges (set angle=0.7853981633974483).",
-        ],
-        plan: Plan::of(&levels)
-            .runs(Quick, "n8", &few[..1], "")
-            .runs(Pr, "n8 n16", &few, "")
-            .runs(Nightly, FOUR, &all, "")
-            .each(Nightly, THREE, &few, MORE)
-            .runs(Nightly, THREE, &few, EIGHTH)
-            .done(),
-        levels,
-        // Half a wave across the ring.
-        checks: of_motion(claim, Wave::shear(|_| TAU)),
-        tables: vec![
-            tables::own_orders("mms-vortex-ring"),
-            tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))),
-        ],
-        ..known_case::<2, Ring>([
-            "mms-vortex-ring",
-            "Vortex in a ring",
-            "A ring of a square block turns about its middle, most at half its thickness and not at all at its edges. Rotation, shear and a body force that jumps.",
-        ])
-    }
+    let plan = Plan::of(metre_levels()[..4].to_vec())
+        .runs(Quick, "n8", &few[..1], "")
+        .runs(Pr, "n8 n16", &few, "")
+        .runs(Nightly, FOUR, &all, "")
+        .each(Nightly, THREE, &few, MORE)
+        .runs(Nightly, THREE, &few, EIGHTH);
+    known_case::<2, Ring>([
+        "mms-vortex-ring",
+        "Vortex in a ring",
+        "A ring of a square block turns about its middle, most at half its thickness and not at all at its edges. Rotation, shear and a body force that jumps.",
+    ])
+    .planned(plan)
+    .reference("Exact solution: Kamojjala et al. 2015, doi:10.1007/s00366-013-0342-x; material at rest fills the square around the ring.")
+    .limit("h″ and with it the body force jumps at the two circles: order two in L2 at best, less in L∞.")
+    .limit("At the angle of 45° of the literature the shear reaches 4.8: particles on fixed domains lose touch and nothing converges (set angle=0.7853981633974483).")
+    // Half a wave across the ring.
+    .checks(of_motion(claim, Wave::shear(|_| TAU)))
+    .table(tables::own_orders("mms-vortex-ring"))
+    .table(tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))))
 }
 
 fn claim(r: &Setup<()>) -> Claim {

@@ -3,14 +3,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
-use super::family::{BASES, REMEDIES, implicit, main_pairs, other_transfers, pairs};
 use super::manufactured::*;
 use super::parameters::DYNAMIC;
+use crate::cases::prelude::*;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::f64::consts::PI;
 
 #[derive(Debug, Clone)]
 struct WallPressure;
@@ -34,42 +31,33 @@ fn claim(r: &Setup<()>) -> Claim {
 }
 
 pub(super) fn case() -> Case {
-    let case = known_case::<2, WallPressure>([
-        "mms-wall-pressure",
-        "Pressure gradient at walls",
-        "A neo-Hookean body between rollers is squeezed along its axes so that the pressure is steepest at the walls. Whether bases and averages keep their order there, with both treatments of splines at a wall.",
-    ]);
     // Half a wave across the body.
     let mut checks = of_motion(claim, Wave::pressure(|_| PI));
     checks.push(stress_order(claim));
     checks.extend(order_in_time());
-    Case {
-        references: vec![
-            "Exact solution u_i = 4A X_i (1 − X_i) sin ωt, derived with the code; the balance of momentum is tested by eighth-order differences at random points.".to_owned(),
-        ],
-        limits: &[
-            "Compression and extension without shear: mms-vortex-box has the shear.",
-            "At ν = 0.3 nothing locks.",
-        ],
-        plan: plan(&case.levels),
-        checks,
-        begin: Box::new(begin::<WallPressure>),
-        tables: vec![
-            tables::own_orders("mms-wall-pressure"),
-            tables::orders("mms-wall-pressure-rules", tables::is_of_rule),
-            tables::orders("mms-wall-pressure-wall-line", |r| {
-                tables::changes(r, "wall=wall-line") && is_flip(r)
-            }),
-            tables::errors(
-                "mms-wall-pressure-large",
-                ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
-            ),
-        ],
-        ..case
-    }
+    known_case::<2, WallPressure>([
+        "mms-wall-pressure",
+        "Pressure gradient at walls",
+        "A neo-Hookean body between rollers is squeezed along its axes so that the pressure is steepest at the walls. Whether bases and averages keep their order there, with both treatments of splines at a wall.",
+    ])
+    .planned(plan())
+    .reference("Exact solution u_i = 4A X_i (1 − X_i) sin ωt, derived with the code; the balance of momentum is tested by eighth-order differences at random points.")
+    .limit("Compression and extension without shear: mms-vortex-box has the shear.")
+    .limit("At ν = 0.3 nothing locks.")
+    .checks(checks)
+    .begun(begin::<WallPressure>)
+    .table(tables::own_orders("mms-wall-pressure"))
+    .table(tables::orders("mms-wall-pressure-rules", tables::is_of_rule))
+    .table(tables::orders("mms-wall-pressure-wall-line", |r| {
+        tables::changes(r, "wall=wall-line") && is_flip(r)
+    }))
+    .table(tables::errors(
+        "mms-wall-pressure-large",
+        ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
+    ))
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let few = [RemedyName::None, FbarRate, FbarConsistent];
     let two = [Gimp, Bspline2];
     let rules = [RuleName::Midpoint, RuleName::Newmark];
@@ -84,7 +72,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
     let consistent = halved.map(|cfl| format!("{cfl} lumped=0"));
     let lumped = halved.map(|cfl| format!("{cfl} lumped=1"));
-    Plan::of(levels)
+    Plan::of(metre_levels())
         .runs(Quick, "n8", &own[..1], "")
         .runs(Pr, THREE, &own, "")
         .runs(Pr, THREE, &splines[..1], "wall=wall-line")
@@ -101,5 +89,4 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n16", &definite, &consistent)
         .each(Nightly, "n16", &moved, halved)
         .each(Nightly, "n16", &moved[..3], &lumped)
-        .done()
 }

@@ -6,6 +6,7 @@ use crate::foreign::Foreign;
 use std::sync::LazyLock;
 
 mod analysis;
+mod build;
 mod cantilever;
 mod checks;
 mod column;
@@ -40,6 +41,7 @@ pub(crate) mod parameters;
 mod patch;
 mod pictures;
 mod poro;
+mod prelude;
 mod rest;
 pub mod scene;
 mod shock;

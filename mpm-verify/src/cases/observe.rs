@@ -1,19 +1,12 @@
 //! Set-up and observation shared by several problems.
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
-use crate::error::Error;
+use crate::cases::prelude::*;
 use crate::job::Column;
-use crate::parameter::{Parameter, ParameterSet, Parameters};
-use crate::record::Discretisation;
-use crate::scheme::{RuleName, Scheme};
-use crate::setup::Setup;
-use crate::spec::RunSpec;
-use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::stage::LocalDamping;
-use mpm_core::{Field, Particles, Simulation};
 
 impl<P: ParameterSet> Setup<P> {
     /// How B-splines meet walls, by the parameter `wall`.
@@ -153,6 +146,12 @@ pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Col
     let volumes = seeded(&particles.reference_volume);
     columns.push(column("reference_volume", volume, volumes));
     columns
+}
+
+/// Displacement (m) along an axis, in seeding order.
+pub(super) fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
 
 /// Places (m) of the particles in seeding order.

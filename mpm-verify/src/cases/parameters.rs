@@ -1,8 +1,7 @@
 //! Parameters shared by several problems: each is read by its constant, so that a typo does not compile.
 
-use crate::error::Error;
-use crate::parameter::{Domain, Parameter, Parameters, choices, number, parameters};
-use crate::record::Record;
+use crate::parameter::{Domain, number};
+use crate::prelude::*;
 use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
@@ -17,14 +16,8 @@ const AUTO: &str = "auto";
 choices! {
     /// How B-splines meet walls.
     pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
-}
-
-choices! {
     /// How the time step follows from the cells.
     pub(super) enum StepScaling { H = "h", H2 = "h2" }
-}
-
-choices! {
     /// How the time step is found.
     pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
 }

@@ -2,15 +2,9 @@
 //!
 //! Set-up, choices and tolerances: `docs/patch.md`.
 
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::exact::transfers::{filtered, second_moment};
-use crate::prelude::*;
-use crate::statistics::rms;
-use mpm_core::material::NeoHookean;
-use mpm_core::stage::Gravity;
-use mpm_core::{Error as Fault, Law};
-use mpm_solvers::{Solvable, Solved, stable_cfl};
+use mpm_solvers::stable_cfl;
 use nalgebra::{Matrix3, SMatrix};
 use std::ops::AddAssign;
 
@@ -67,62 +61,45 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(SIDE, [("n8", 8.0)]);
-    Case {
-        description: "A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
-                      and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.",
-        references: vec!["Exact: an affine motion without forces, and free fall.".to_owned()],
-        limits: &[
-            "Transfers without an affine part see a gradient in the interior of a regular lattice alone.",
-            "Walls that hold nodes are not here: their share in a transfer is judged by drift alone.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![Wanted::new(
-            "motion",
-            "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps",
-            "affine filter free-fall",
-        )],
-        checks: checks(),
-        headlines: vec![
-            headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9),
-            headline(VELOCITY_ERROR, "velocity (–)", 1.0, 9),
-            headline(STRESS_ERROR, "stress (–)", 1.0, 9),
-            headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6),
-        ],
-        watched: &["displacement_error", "kinetic_energy"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
-                Shape::Load([0.4, 0.4], [0.7, 0.7]),
-                Shape::note([0.5, -0.1], "wall that doesn't hold"),
-                Shape::length([0.0, 1.1], [1.0, 1.1], "1 m"),
-            ],
-            description: "A cube that stretches, shears and falls away from the walls of its corner.",
-        },
-        cost: Box::new(|_| 0.01),
-        begin: Box::new(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
+    Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL)
+        .planned(plan())
+        .described("A soft body beside open-knot walls that don't hold it stretches and shears with a constant gradient of velocity, \
+            and falls: every entry of the gradient, APIC at walls, the filter of XPIC, the start of implicit rules and the work of damping, exactly.")
+        .reference("Exact: an affine motion without forces, and free fall.")
+        .limit("Transfers without an affine part see a gradient in the interior of a regular lattice alone.")
+        .limit("Walls that hold nodes are not here: their share in a transfer is judged by drift alone.")
+        .wanted("motion", "displacement, velocity and stress at the end against the exact motion, or the share that a filter keeps", "affine filter free-fall")
+        .checks(checks())
+        .headline(DISPLACEMENT_ERROR, "displacement off by (–)", 1.0, 9)
+        .headline(VELOCITY_ERROR, "velocity (–)", 1.0, 9)
+        .headline(STRESS_ERROR, "stress (–)", 1.0, 9)
+        .headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6)
+        .watched(&["displacement_error", "kinetic_energy"])
+        .sketch(Sketch::of("A cube that stretches, shears and falls away from the walls of its corner.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .load([0.4, 0.4], [0.7, 0.7])
+            .note([0.5, -0.1], "wall that doesn't hold")
+            .length([0.0, 1.1], [1.0, 1.1], "1 m"))
+        .cost(|_| 0.01)
+        .begun(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
             2 => crate::problem::begin::<2, Moving>(spec, values),
             _ => crate::problem::begin::<3, Moving>(spec, values),
-        }),
-        ..Case::of::<2, Moving>("patch", "Affine motion and free fall", ALL)
-    }
+        })
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = [RemedyName::None];
     let plain = pairs(&[Gimp, Bspline2], &none);
     let affine = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Apic));
     let filters = [Gimp, Bspline2].map(|basis| Scheme::explicit(basis, none[0], TransferName::Xpic2));
     let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &none);
-    Plan::of(levels)
+    Plan::of(levels(SIDE, [("n8", 8.0)]))
         .runs(Quick, "n8", &affine[1..], "")
         .runs(Pr, "n8", &affine, "")
         .runs(Pr, "n8", &[Scheme::flip(Gimp, FbarConsistent)], "")
         .runs(Pr, "n8", &filters, "")
         .each(Pr, "n8", &plain, ["dimension=3", "strain=0 fall=0.2 damping=0.5"])
         .runs(Pr, "n8", &moved, "strain=0 fall=0.2")
-        .done()
 }
 
 impl Setup<Moved> {
@@ -281,7 +258,7 @@ where
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(D, self.setup.ppc_per_direction.pow(D as u32), self.dt)
+        self.setup.regular(D, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<D>>, Fault> {
@@ -292,12 +269,9 @@ where
             let count = (cells + way / h + ROOM).ceil() as usize;
             Axis::bounded(0.0, count, (Side::Wall, Side::Open))
         };
-        let size = h / self.setup.ppc_per_direction as f64;
+        let size = self.setup.pitch();
         let along = cells as usize * self.setup.ppc_per_direction;
-        let place = |k: usize, a: usize| ((k / along.pow(a as u32) % along) as f64 + 0.5) * size;
-        let places = (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| place(k, a)));
-        let places = self.setup.start_at(places);
-        let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
+        let mut particles = self.setup.particles_at(by_rows([along; D], size), size, DENSITY)?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = self.exact(x, 0.0, self.lag())[1];
         }
@@ -310,14 +284,7 @@ where
         }
         let pull = self.setup.ways::<D>()[0].map(|way| 2.0 * way / DURATION.powi(2));
         let scene = Scene::new(Grid::new(h, ways.map(axis))?, Body::new(self.law, particles)?);
-        let scene = scene.load(Gravity(Box::new(move |_| pull)));
-        match self.setup.implicit_settings(self.dt) {
-            Some(settings) => mpm_solvers::implicit(self.setup.scheme, scene, settings),
-            None => {
-                let settings = self.setup.settings(self.dt, self.setup.damping)?;
-                mpm_solvers::solver(self.setup.scheme, scene, settings)
-            }
-        }
+        self.setup.moving(scene.load(Gravity(Box::new(move |_| pull))), self.dt, self.setup.damping)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<D>) -> Result<Row, Fault> {

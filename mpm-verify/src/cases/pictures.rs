@@ -1,11 +1,6 @@
-//! Parts shared by the pictures of several problems: their runs, curves by remedy, and their arrangement.
+//! Parts shared by the pictures of several problems: their titles, their runs and their arrangement.
 
-use crate::draw::style::history;
-use crate::draw::{Chart, FieldFigure, Series, draw_charts, draw_fields};
-use crate::error::Error;
-use crate::gallery::Gallery;
-use crate::record::{Record, Status};
-use crate::scheme::{BasisName, RemedyName, Scheme, TransferName};
+use crate::cases::prelude::*;
 use std::path::PathBuf;
 
 /// Whether a run came to its end and has the transfer that problems are shown with.
@@ -71,30 +66,6 @@ impl<'a, 'g> Exhibit<'a, 'g> {
         levels.iter().copied().find(has_all)
     }
 
-    /// The curve of every remedy that has run at a level.
-    pub(super) fn by_remedy(
-        &self,
-        (basis, level): (BasisName, &str),
-        remedies: &[RemedyName],
-        points: impl Fn(&Record) -> Result<Vec<(f64, f64)>, Error>,
-    ) -> Result<Vec<Series>, Error> {
-        let mut curves = Vec::new();
-        for &remedy in remedies {
-            if let Some(record) = self.find(basis, remedy, level) {
-                let scheme = Scheme::flip(basis, remedy);
-                let mut curve = history(scheme, points(record)?);
-                curve.name = remedy_title(remedy);
-                curves.push(curve);
-            }
-        }
-        Ok(curves)
-    }
-
-    /// Two columns of the time series of a run.
-    pub(super) fn history(&self, record: &Record, [x, y]: [&str; 2]) -> Result<Vec<(f64, f64)>, Error> {
-        Ok(self.gallery.table(record, "series.csv")?.points(x, y))
-    }
-
     /// The file of a picture.
     pub(super) fn place(&self, name: &str) -> PathBuf {
         self.gallery.place(&format!("{name}.png"))
@@ -103,20 +74,6 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     /// Hangs a picture that was drawn at its [place](Self::place).
     pub(super) fn hang(&mut self, name: &str, caption: impl Into<String>) {
         self.gallery.hang(&format!("{name}.png"), caption);
-    }
-
-    /// Draws charts and writes their points beside them.
-    pub(super) fn charts(
-        &mut self,
-        name: &str,
-        charts: &[Chart],
-        columns: usize,
-        caption: impl Into<String>,
-    ) -> Result<(), Error> {
-        self.gallery.write_curves(&format!("{name}.csv"), charts)?;
-        draw_charts(&self.place(name), charts, columns)?;
-        self.hang(name, caption);
-        Ok(())
     }
 
     /// Draws panels of fields.

@@ -1,10 +1,17 @@
 //! Scenes and observations that cases of solid and water share.
 
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use mpm_core::poro::PressureSpace;
 
 /// Weight of water (N/m³).
 pub(super) const WATER_WEIGHT: f64 = 9810.0;
+/// Parameters of all.
+pub(super) const CONDUCTIVITY: Parameter =
+    real("m/s", "1e-5", 1e-12, 1.0).named("conductivity").meaning("hydraulic conductivity k, of water of 9810 N/m³");
+pub(super) const PROJECTION: Parameter =
+    real("-", "1", 0.01, 100.0).named("projection").meaning("ppp: its strength times 2G");
+pub(super) const TOLERANCE: Parameter =
+    real("-", "1e-10", 1e-13, 1e-8).named("tolerance").meaning("residual of a converged step over what it balances");
 /// Smaller values are rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
 
@@ -13,7 +20,31 @@ pub(super) fn spaces(basis: BasisName) -> [Scheme; 3] {
     [TwoGrid, Equal, Ppp].map(|space| Scheme::poro(basis, space))
 }
 
-impl<P> Setup<P> {
+impl<P: ParameterSet> Setup<P> {
+    /// Shear modulus G (Pa) of undeformed material.
+    pub(super) fn shear_modulus(&self) -> f64 {
+        self.values.number(common::YOUNG_MODULUS) / (2.0 * (1.0 + self.values.number(common::POISSON_RATIO)))
+    }
+
+    /// Oedometric modulus M (Pa) of undeformed material.
+    pub(super) fn oedometric_modulus(&self) -> f64 {
+        let ratio = self.values.number(common::POISSON_RATIO);
+        2.0 * self.shear_modulus() * (1.0 - ratio) / (1.0 - 2.0 * ratio)
+    }
+
+    /// κ (m²/(Pa s)) of undeformed material, by the parameter `conductivity`.
+    pub(super) fn kappa(&self) -> f64 {
+        self.values.number(CONDUCTIVITY) / WATER_WEIGHT
+    }
+
+    /// τ M of a projection by the parameter `projection`; zero without one.
+    pub(super) fn projection_strength(&self) -> f64 {
+        match self.space() {
+            Some(Ppp) => self.values.number(PROJECTION) * self.oedometric_modulus() / (2.0 * self.shear_modulus()),
+            _ => 0.0,
+        }
+    }
+
     /// The pressure space; a projection has the strength τ `strength` (1/Pa).
     pub(super) fn pressure_space(&self, strength: f64) -> PressureSpace {
         match self.space() {
@@ -28,6 +59,13 @@ impl<P> Setup<P> {
 /// A distance that is at least [`ROUNDING`]; NaN stays NaN.
 pub(super) fn above_rounding(distance: f64) -> f64 {
     if distance < ROUNDING { ROUNDING } else { distance }
+}
+
+/// Loss of the body's volume since the start (m³, m² in plane strain, m in one dimension).
+pub(super) fn lost_volume<const D: usize>(run: &dyn Simulation<D>) -> f64 {
+    let p = run.particles();
+    let volume = |of: &[f64]| of.iter().sum::<f64>();
+    volume(&p.reference_volume) - volume(&p.volume)
 }
 
 /// Entries of a matrix, on average.

@@ -2,13 +2,11 @@
 //!
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
-use super::family::{self, REMEDIES, pairs};
 use super::manufactured::*;
 use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 
 const HUNDRED_THOUSAND: &str = "duration=20";
 const MILLION: &str = "duration=200";
@@ -35,45 +33,35 @@ impl Known for Incline {
 }
 
 pub(super) fn case() -> Case {
-    let levels = family::levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]);
     let few = [RemedyName::None, FbarRecursive, FbarConsistent];
     let few = pairs(&SMOOTH, &few);
     let all = pairs(&[Gimp, Bspline2, Bspline3], &REMEDIES);
-    Case {
-        references: vec![
-            "Exact state of rest at finite deformation, exact/src/incline.rs.".to_owned(),
-            "What fbar-recursive tends to: J̄ that is the same everywhere, docs/rest.md.".to_owned(),
-        ],
-        limits: &["The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here."],
-        plan: Plan::of(&levels)
-            .runs(Pr, "h0.25", &few, "")
-            .runs(Nightly, "h0.25 h0.125", &all, "")
-            .runs(Nightly, "h0.25", &all, HUNDRED_THOUSAND)
-            .runs(Nightly, "h0.25", &few, MILLION)
-            .done(),
-        levels,
-        wanted: vec![
-            Wanted::new("place", "largest distance of a particle from its place of rest", "stays")
-                .missed_by("cubic-out-of-balance pressure-relaxes"),
-            Wanted::new("pressure", "mean pressure at the foot", "base-pressure")
-                .missed_by("cubic-out-of-balance pressure-relaxes"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6),
-            headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (–)", 1.0, 6),
-            headline(TRUE_J_DRIFT_PER_1E5_STEPS, "of J (–)", 1.0, 6),
-            headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3),
-            headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (J/m)", 1.0, 6),
-        ],
-        quantities: Vec::new(),
-        tables: vec![table("rest", HUNDRED_THOUSAND), table("rest-million", MILLION)],
-        ..known_case::<2, Incline>([
-            "rest",
-            "Slope at rest",
-            "A layer two metres thick on a rough incline starts in its exact state of rest and has nothing to do, for up to a million steps: no energy grows, nothing creeps, but what the printed F̄ is known to.",
-        ])
-    }
+    let plan = Plan::of(levels(1.0, [("h0.25", 4.0), ("h0.125", 8.0)]))
+        .runs(Pr, "h0.25", &few, "")
+        .runs(Nightly, "h0.25 h0.125", &all, "")
+        .runs(Nightly, "h0.25", &all, HUNDRED_THOUSAND)
+        .runs(Nightly, "h0.25", &few, MILLION);
+    known_case::<2, Incline>([
+        "rest",
+        "Slope at rest",
+        "A layer two metres thick on a rough incline starts in its exact state of rest and has nothing to do, for up to a million steps: no energy grows, nothing creeps, but what the printed F̄ is known to.",
+    ])
+    .planned(plan)
+    .reference("Exact state of rest at finite deformation, exact/src/incline.rs.")
+    .reference("What fbar-recursive tends to: J̄ that is the same everywhere, docs/rest.md.")
+    .limit("The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here.")
+    .anew()
+    .wanted("place", "largest distance of a particle from its place of rest", "stays")
+    .missed_by("cubic-out-of-balance pressure-relaxes")
+    .wanted("pressure", "mean pressure at the foot", "base-pressure")
+    .missed_by("cubic-out-of-balance pressure-relaxes")
+    .checks(checks())
+    .headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6)
+    .headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (–)", 1.0, 6)
+    .headline(TRUE_J_DRIFT_PER_1E5_STEPS, "of J (–)", 1.0, 6)
+    .headline(KINETIC_GROWTH, "kinetic energy, last / middle third (–)", 1.0, 3)
+    .headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (J/m)", 1.0, 6)
+    .tables(vec![table("rest", HUNDRED_THOUSAND), table("rest-million", MILLION)])
 }
 
 fn table(name: &str, set: &'static str) -> ResultTable {

@@ -2,17 +2,15 @@
 //!
 //! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
-use super::family::{REMEDIES, implicit, pairs};
 use super::manufactured::*;
 use super::parameters::{DENSITY, DYNAMIC, FLIP, WALL, WALL_LINE};
+use crate::cases::prelude::*;
+use crate::exact;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use crate::exact::{self, Exact, Material};
-use crate::parameter::{Parameter, Parameters, number, parameters};
-use crate::prelude::*;
+use crate::parameter::number;
 use nalgebra::{Matrix3, Vector3};
-use std::f64::consts::{PI, TAU};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.
@@ -127,60 +125,48 @@ fn compression(r: &Setup<()>) -> f64 {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..2].to_vec();
     let all = pairs(&SMOOTH, &REMEDIES);
     let held = pairs(&[Gimp], &[FbarConsistent]);
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &SMOOTH, &[RemedyName::None]);
     let steps: Label = ("CFL", |r| r.parameters.text(CFL));
-    Case {
-        references: vec![
-            "Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.".to_owned(),
-        ],
-        limits: &[
-            "The steepest slope of the wave is 3 %; terms of second order are left out of the exact solution.",
-            "Sound travels at 50 m/s, not at 1,416 m/s.",
-            "No averaged remedy carries the wave through twenty periods with both bases: with GIMP fbar-consistent does at hold=10 and relaxation=0, with quadratic splines none does (docs/disorder.md).",
-        ],
-        plan: Plan::of(&levels)
-            .runs(Pr, "n8", &all, "")
-            .runs(Nightly, "n8 n16", &all, "")
-            .runs(Nightly, "n8 n16", &all, TWENTY_PERIODS)
-            .runs(Pr, "n8", &held, HELD)
-            .runs(Nightly, "n8 n16", &held, HELD)
-            .each(Nightly, "n8 n16", &moved, ["cfl=10 duration=24", "cfl=40 duration=24"])
-            .done(),
-        levels,
-        wanted: vec![
-            Wanted::new("frequency", "frequency over the periods", "frequency").missed_by("locks motion-lost"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 4),
-            headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 3),
-            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
-            headline(ENERGY_LOSS, "energy loss (–)", 1.0, 4),
-            headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 5),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
-        ],
-        quantities: vec![error(FREQUENCY_ERROR, "relative error of the frequency")],
-        tables: vec![
-            periods("standing-wave-two-periods", &[SCHEME], Record::is_default),
-            periods("standing-wave-twenty-periods", &[SCHEME], |r| tables::changes(r, TWENTY_PERIODS)),
-            periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)),
-            periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()),
-        ],
-        breaks_down: |r| {
-            let disordered = Setup::of_record(r).is_ok_and(|r| is_disordered(&r));
-            disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/modes.md)")
-        },
-        pictures,
-        ..known_case::<2, CompressibleWave>([
-            "standing-wave",
-            "Standing wave",
-            "Half a metre of water sways in a box for twenty periods without viscosity: the frequency is known, the energy must not grow, and particles have time to lose their order.",
-        ])
-    }
+    let plan = Plan::of(metre_levels()[..2].to_vec())
+        .runs(Pr, "n8", &all, "")
+        .runs(Nightly, "n8 n16", &all, "")
+        .runs(Nightly, "n8 n16", &all, TWENTY_PERIODS)
+        .runs(Pr, "n8", &held, HELD)
+        .runs(Nightly, "n8 n16", &held, HELD)
+        .each(Nightly, "n8 n16", &moved, ["cfl=10 duration=24", "cfl=40 duration=24"]);
+    known_case::<2, CompressibleWave>([
+        "standing-wave",
+        "Standing wave",
+        "Half a metre of water sways in a box for twenty periods without viscosity: the frequency is known, the energy must not grow, and particles have time to lose their order.",
+    ])
+    .planned(plan)
+    .reference("Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.")
+    .limit("The steepest slope of the wave is 3 %; terms of second order are left out of the exact solution.")
+    .limit("Sound travels at 50 m/s, not at 1,416 m/s.")
+    .limit("No averaged remedy carries the wave through twenty periods with both bases: with GIMP fbar-consistent does at hold=10 and relaxation=0, with quadratic splines none does (docs/disorder.md).")
+    .anew()
+    .wanted("frequency", "frequency over the periods", "frequency")
+    .missed_by("locks motion-lost")
+    .checks(checks())
+    .headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 4)
+    .headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 3)
+    .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
+    .headline(ENERGY_LOSS, "energy loss (–)", 1.0, 4)
+    .headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 5)
+    .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4)
+    .quantity(error(FREQUENCY_ERROR, "relative error of the frequency"))
+    .table(periods("standing-wave-two-periods", &[SCHEME], Record::is_default))
+    .table(periods("standing-wave-twenty-periods", &[SCHEME], |r| tables::changes(r, TWENTY_PERIODS)))
+    .table(periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)))
+    .table(periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()))
+    .breaks_down(|r| {
+        let disordered = Setup::of_record(r).is_ok_and(|r| is_disordered(&r));
+        disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/modes.md)")
+    })
+    .pictures(pictures)
 }
 
 /// Frequency, amplitude, loss and order at both levels.

@@ -2,15 +2,12 @@
 //!
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
-use super::family::{BASES, REMEDIES, implicit, pairs};
 use super::manufactured::*;
 use super::parameters::{ALPHA, DELTA, DYNAMIC, LUMPED};
+use crate::cases::prelude::*;
+use crate::exact;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
-use crate::exact::{self, Exact};
-use crate::parameter::{Parameter, Parameters};
-use crate::prelude::*;
-use std::f64::consts::{PI, TAU};
 
 const LEVELS: [(&str, &str); 4] = [("n8", "8"), ("n16", "16"), ("n32", "32"), ("n64", "64")];
 const ORDERS: &[(Metric, Claims)] = &[(FREQUENCY_ERROR, claim_of_frequency), (DAMPING, claim_of_damping)];
@@ -87,68 +84,50 @@ fn is_cubic(r: &Setup<()>) -> bool {
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels()[..4].to_vec();
     let all = pairs(&BASES, &REMEDIES);
     let rules = [RuleName::Midpoint, RuleName::Newmark];
     let moved = implicit(&rules, &BASES[..3], &[RemedyName::None]);
-    Case {
-        references: vec![
-            "Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.".to_owned(),
-            "What averaging does: the symbol of Π, docs/modes.md.".to_owned(),
-        ],
-        limits: &[
-            "One mode of small amplitude: no particle crosses a cell.",
-            "FLIP with lumped masses damps even at η = 1, by ¼ s² (kh)² (ωΔt)² a step; the amplitude falls accordingly.",
-        ],
-        plan: Plan::of(&levels)
-            .runs(Quick, "n8", &all[..1], "")
-            .runs(Pr, THREE, &all, "")
-            .runs(Nightly, FOUR, &all, "")
-            .each(Pr, "n8 n16", &moved, ["cfl=4", "cfl=16"])
-            .each(Nightly, FOUR, &moved, ["cfl=1", "cfl=4"])
-            .each(Nightly, "n8", &moved[..3], ["cfl=4 lumped=0", "cfl=4 lumped=1"])
-            .done(),
-        levels,
-        wanted: vec![
-            Wanted::new("frequency", "mean frequency of a hundred periods", "frequency")
-                .missed_by("motion-lost fades cubic-walls-damp"),
-            Wanted::new("energy", "energy after a hundred periods over that of the start", "keeps-energy")
-                .missed_by("damps fades cubic-walls-damp null-space-grows"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 6),
-            headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 4),
-            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
-            headline(ENERGY_END, "energy at the end (–)", 1.0, 4),
-            headline(LUMPING_LOSS, "lumped mass took (–)", 1.0, 4),
-        ],
-        quantities: vec![
-            error(FREQUENCY_ERROR, "relative error of the frequency"),
-            error(DAMPING, "−ln of the amplitude's ratio"),
-        ],
-        tables: vec![results(), softenings(), over_rules()],
-        ..known_case::<1, Bar>([
-            "vibrating-bar",
-            "Vibrating bar",
-            "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",
-        ])
-    }
+    let plan = Plan::of(metre_levels()[..4].to_vec())
+        .runs(Quick, "n8", &all[..1], "")
+        .runs(Pr, THREE, &all, "")
+        .runs(Nightly, FOUR, &all, "")
+        .each(Pr, "n8 n16", &moved, ["cfl=4", "cfl=16"])
+        .each(Nightly, FOUR, &moved, ["cfl=1", "cfl=4"])
+        .each(Nightly, "n8", &moved[..3], ["cfl=4 lumped=0", "cfl=4 lumped=1"]);
+    known_case::<1, Bar>([
+        "vibrating-bar",
+        "Vibrating bar",
+        "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",
+    ])
+    .planned(plan)
+    .reference("Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.")
+    .reference("What averaging does: the symbol of Π, docs/modes.md.")
+    .limit("One mode of small amplitude: no particle crosses a cell.")
+    .limit("FLIP with lumped masses damps even at η = 1, by ¼ s² (kh)² (ωΔt)² a step; the amplitude falls accordingly.")
+    .anew()
+    .wanted("frequency", "mean frequency of a hundred periods", "frequency")
+    .missed_by("motion-lost fades cubic-walls-damp")
+    .wanted("energy", "energy after a hundred periods over that of the start", "keeps-energy")
+    .missed_by("damps fades cubic-walls-damp null-space-grows")
+    .checks(checks())
+    .headline(FREQUENCY_RATIO, "frequency / exact (–)", 1.0, 6)
+    .headline(AMPLITUDE_RATIO, "amplitude, last / first period (–)", 1.0, 4)
+    .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
+    .headline(ENERGY_END, "energy at the end (–)", 1.0, 4)
+    .headline(LUMPING_LOSS, "lumped mass took (–)", 1.0, 4)
+    .quantity(error(FREQUENCY_ERROR, "relative error of the frequency"))
+    .quantity(error(DAMPING, "−ln of the amplitude's ratio"))
+    .tables(vec![results(), softenings(), over_rules()])
 }
 
 fn results() -> ResultTable {
     let titled = |what: &'static str| LEVELS.map(|(level, n)| (level, format!("{what}, n = {n}")));
-    let mut columns = Column::levels(titled("error of the frequency"), FREQUENCY_ERROR, scientific(2));
-    columns.push(Column::row("order ± (between levels)", |runs, _| {
+    ResultTable::of("vibrating-bar", |r| r.is_default() && is_flip(r))
+        .by(&[SCHEME])
+        .columns(Column::levels(titled("error of the frequency"), FREQUENCY_ERROR, scientific(2)))
         // What fades within the run has no frequency to converge.
-        let lasting = runs.iter().copied();
-        let lasting = lasting.filter(|r| r.remedy() != FbarRecursive);
-        let found = order(lasting, FREQUENCY_ERROR.name);
-        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
-    }));
-    columns.extend(Column::levels(titled("amplitude"), AMPLITUDE_RATIO, fixed(3)));
-    let shows = |r: &Record| r.is_default() && is_flip(r);
-    ResultTable::new("vibrating-bar", shows, &[SCHEME], columns)
+        .column(Column::order_of(FREQUENCY_ERROR, |r| r.remedy() != FbarRecursive))
+        .columns(Column::levels(titled("amplitude"), AMPLITUDE_RATIO, fixed(3)))
 }
 
 /// Frequency over a hundred periods with implicit rules, and the energy that is lost.
@@ -192,15 +171,13 @@ fn softenings() -> ResultTable {
         averaged(runs)
             .map_or_else(String::new, |(basis, remedy)| fixed(3).text(softening(basis, remedy).unwrap_or(f64::NAN)))
     });
-    ResultTable::new(
-        "vibrating-bar-softening",
-        |r| {
-            let compared = [RemedyName::None, FbarRate, FbarConsistent];
-            r.is_default() && is_flip(r) && compared.contains(&r.remedy())
-        },
-        &[SCHEME],
-        of_level.into_iter().chain([predicted]),
-    )
+    ResultTable::of("vibrating-bar-softening", |r| {
+        let compared = [RemedyName::None, FbarRate, FbarConsistent];
+        r.is_default() && is_flip(r) && compared.contains(&r.remedy())
+    })
+    .by(&[SCHEME])
+    .columns(of_level)
+    .column(predicted)
 }
 
 fn checks() -> Vec<Check> {

@@ -2,7 +2,6 @@
 
 use super::reference::stresses;
 use super::*;
-use crate::probe::PointProbe;
 
 /// Particles, column by column, and probes of the stress.
 pub(super) struct Edge {

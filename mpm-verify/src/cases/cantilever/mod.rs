@@ -9,9 +9,7 @@ pub(super) mod foreign;
 mod reference;
 mod run;
 
-use super::parameters as common;
-use crate::prelude::*;
-use crate::results::BASIS;
+use crate::cases::prelude::*;
 use BasisName::Q8;
 use reference::solution;
 use run::{DEPTH, LENGTH};
@@ -27,14 +25,8 @@ choices! {
     pub(super) enum LawName {
         Hencky = "hencky", NeoHookean = "neo-hookean", Jaumann = "jaumann", JaumannLinear = "jaumann-linear",
     }
-}
-
-choices! {
     /// Initial positions of the particles in a cell.
     pub(super) enum Points { Uniform = "uniform", Gauss = "gauss" }
-}
-
-choices! {
     /// Stabilisation of functions that see hardly any material.
     pub(super) enum Stabilised { None = "none", Soft = "soft", Ghost = "ghost", Extension = "extension" }
 }
@@ -103,55 +95,43 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
-    let levels = sizes.map(|(name, h)| Level { name, h });
     let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
-    Case {
-        description: "An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
-                      the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
-                      finite elements; the paper's serendipity elements don't converge.",
-        references: crate::exact::cantilever::describe(),
-        limits: &[
-            "The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.",
-            "Serendipity elements are the paper's, for this case alone.",
-        ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
-        wanted: vec![
-            Wanted::new("deflection", "u_y of the corner under the whole weight", "corner")
-                .missed_by("coarse-bending no-stabilisation"),
-            Wanted::new("stress", "σ_xx at six points near the clamp", "stress")
-                .missed_by("coarse-bending no-stabilisation"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(CORNER_UX, "corner u_x (m)", 1.0, 4),
-            headline(CORNER_UY, "corner u_y (m)", 1.0, 4),
-            headline(EDGE_MEAN_UY, "edge mean u_y (m)", 1.0, 4),
-            headline(STRESS_MIN, "σ_xx from (kPa)", 1e-3, 1),
-            headline(STRESS_MAX, "to (kPa)", 1e-3, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(LOG10_CONDITION, "log₁₀ condition", 1.0, 1),
-        ],
-        quantities: vec![
-            error(CORNER_ERROR, "relative error of the corner's u_y"),
-            error(STRESS_ERROR, "relative error of σ_xx near the clamp"),
-        ],
-        watched: &["corner_uy", "newton_iterations"],
-        field: Some(FieldView {
-            time: None,
-            value: "stress_xx",
-            label: "σ_xx at 4 kN/m³ (Pa)",
-            range: (-4e4, 4e4),
-            window: [(-0.05, 1.05), (-0.65, 0.35)],
-        }),
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-3)),
-        pictures: figures::draw,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
-    }
+    Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
+        .planned(plan())
+        .described("An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
+            the case by which the implicit paper shows its method. Quadratic splines with a ghost penalty converge to the \
+            finite elements; the paper's serendipity elements don't converge.")
+        .references(crate::exact::cantilever::describe())
+        .limit("The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.")
+        .limit("Serendipity elements are the paper's, for this case alone.")
+        .wanted("deflection", "u_y of the corner under the whole weight", "corner")
+        .missed_by("coarse-bending no-stabilisation")
+        .wanted("stress", "σ_xx at six points near the clamp", "stress")
+        .missed_by("coarse-bending no-stabilisation")
+        .checks(checks::checks())
+        .headline(CORNER_UX, "corner u_x (m)", 1.0, 4)
+        .headline(CORNER_UY, "corner u_y (m)", 1.0, 4)
+        .headline(EDGE_MEAN_UY, "edge mean u_y (m)", 1.0, 4)
+        .headline(STRESS_MIN, "σ_xx from (kPa)", 1e-3, 1)
+        .headline(STRESS_MAX, "to (kPa)", 1e-3, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(LOG10_CONDITION, "log₁₀ condition", 1.0, 1)
+        .quantity(error(CORNER_ERROR, "relative error of the corner's u_y"))
+        .quantity(error(STRESS_ERROR, "relative error of σ_xx near the clamp"))
+        .watched(&["corner_uy", "newton_iterations"])
+        .field(FieldView::at_end(["stress_xx", "σ_xx at 4 kN/m³ (Pa)"], (-4e4, 4e4), [(-0.05, 1.05), (-0.65, 0.35)]))
+        .sketch(Sketch::of("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.")
+            .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
+            .held([0.0, 0.0], [0.0, DEPTH])
+            .length([0.0, -0.1], [LENGTH, -0.1], "1 m")
+            .length([1.12, 0.0], [1.12, DEPTH], "0.3 m")
+            .note([0.5, 0.24], "4 kN/m³")
+            .probe([LENGTH, 0.0], "corner")
+            .loads((0..4).map(|k| 0.2 + 0.2 * f64::from(k)), [0.19, 0.07]))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-3))
+        .pictures(figures::draw)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// The reason why a run without stabilisation, or with the paper's elements, is known to break down.
@@ -163,7 +143,7 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     (c.basis() == Q8 && c.load_steps > 20).then_some("particles of serendipity elements leave the body")
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
         bases.iter().map(|basis| Scheme::quasi_static(*basis, RemedyName::None)).collect()
     };
@@ -171,7 +151,8 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let low = schemes(&[Linear, Gimp]);
     let paper = PAPER.join(" ");
     let linear_gauss = "law=jaumann-linear points=gauss";
-    Plan::of(levels)
+    let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
+    Plan::of(sizes.map(|(name, h)| Level { name, h }))
         .runs(Quick, "h0.1", &splines, "")
         .runs(Pr, "h0.1 h0.05 h0.025", &splines, "")
         .runs(Pr, "h0.1 h0.05", &low, "")
@@ -217,23 +198,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             &q8,
             [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft")),
         )
-        .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]]),
-        Shape::Held([0.0, 0.0], [0.0, DEPTH]),
-        Shape::length([0.0, -0.1], [LENGTH, -0.1], "1 m"),
-        Shape::length([1.12, 0.0], [1.12, DEPTH], "0.3 m"),
-        Shape::note([0.5, 0.24], "4 kN/m³"),
-        Shape::Probe { at: [LENGTH, 0.0], label: "corner".to_owned() },
-    ];
-    for k in 0..4 {
-        let x = 0.2 + 0.2 * f64::from(k);
-        shapes.push(Shape::Load([x, 0.19], [x, 0.07]));
-    }
-    Sketch { shapes, description: "A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight." }
 }
 
 fn tables() -> Vec<ResultTable> {
@@ -283,40 +247,25 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("log₁₀ condition", LOG10_CONDITION, fixed(1)),
         ]
     };
-    let mut ghosts = errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]);
-    ghosts.extend(Column::levels([("h0.05", "log₁₀ condition, 0.05")], LOG10_CONDITION, fixed(1)));
-    let of_paper = [
-        Column::metric("corner u_x (m)", CORNER_UX, fixed(3)),
-        Column::metric("corner u_y (m)", CORNER_UY, fixed(3)),
-        Column::metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3)),
-    ];
     let splines = |r: &Record| r.basis() == Bspline2 && r.level == "h0.05";
     let keeps_law_and_load = |r: &Record| r.set.iter().all(|s| !s.starts_with("law") && !s.starts_with("load"));
     vec![
-        ResultTable::new(
-            "cantilever-cells",
-            |r| r.changes_none_but(&["stabilisation"]),
-            &[BASIS, STABILISATION],
-            errors(str::to_owned, &LEVELS),
-        ),
-        ResultTable::new(
-            "cantilever-steps",
-            move |r| splines(r) && r.changes_none_but(&["load_steps", "law"]),
-            &[LAW],
-            steps,
-        ),
+        ResultTable::of("cantilever-cells", |r| r.changes_none_but(&["stabilisation"]))
+            .by(&[BASIS, STABILISATION])
+            .columns(errors(str::to_owned, &LEVELS)),
+        ResultTable::of("cantilever-steps", move |r| splines(r) && r.changes_none_but(&["load_steps", "law"]))
+            .by(&[LAW])
+            .columns(steps),
         ResultTable::new("cantilever-choices", move |r| splines(r) && keeps_law_and_load(r), &[CHANGED], columns()),
-        ResultTable::new(
-            "cantilever-ghosts",
-            |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]),
-            &[ALPHA],
-            ghosts,
-        ),
-        ResultTable::new(
-            "cantilever-paper",
-            |r| r.basis() == Q8 && r.level == "h0.1" && r.set.len() > 2,
-            &[BESIDE_PAPER],
-            of_paper.into_iter().chain(columns()),
-        ),
+        ResultTable::of("cantilever-ghosts", |r| r.basis() == Gimp && r.changes_none_but(&["stabilisation_factor"]))
+            .by(&[ALPHA])
+            .columns(errors(|name| format!("error of u_y, {name}"), &LEVELS[..3]))
+            .columns(Column::levels([("h0.05", "log₁₀ condition, 0.05")], LOG10_CONDITION, fixed(1))),
+        ResultTable::of("cantilever-paper", |r| r.basis() == Q8 && r.level == "h0.1" && r.set.len() > 2)
+            .by(&[BESIDE_PAPER])
+            .metric("corner u_x (m)", CORNER_UX, fixed(3))
+            .metric("corner u_y (m)", CORNER_UY, fixed(3))
+            .metric("edge mean u_y (m)", EDGE_MEAN_UY, fixed(3))
+            .columns(columns()),
     ]
 }

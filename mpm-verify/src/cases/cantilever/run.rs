@@ -3,12 +3,11 @@
 use super::edge::{Edge, extremes};
 use super::*;
 use crate::cases::checks::newton_rate;
-use crate::cases::parameters::require_quotient;
-use mpm_core::implicit::{Settings, Stabilisation};
-use mpm_core::material::{Hencky, Hypoelastic, JaumannUpdate, Law, NeoHookean};
-use mpm_core::simulation::Part;
+use crate::cases::observe::displacement;
+use mpm_core::implicit::Settings;
+use mpm_core::material::{Hypoelastic, JaumannUpdate};
 use mpm_core::stage::BodyForce;
-use mpm_solvers::{Solved, implicit};
+use mpm_solvers::implicit;
 use std::ops::RangeInclusive;
 
 /// Length and depth (m).
@@ -64,9 +63,6 @@ impl Setup<Cantilever> {
     }
 
     /// The simulation at its start.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
         match self.law {
@@ -86,7 +82,7 @@ impl Setup<Cantilever> {
         let particles = Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
         let weight = self.weight / DENSITY;
         let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
-            .constrain(Wall { axis: 0, end: End::Lo, kind: WallKind::Fixed })
+            .constrain(clamp(0, End::Lo))
             .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
         let stabilisation = match self.stabilisation {
             Stabilised::None => Stabilisation::None,
@@ -116,12 +112,6 @@ pub(super) struct Steps {
     force_rounding: f64,
     energy_ratio: f64,
     rate: Option<f64>,
-}
-
-/// Displacement (m) along an axis, in seeding order.
-fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
-    let p = run.particles();
-    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
 
 /// σ_xx (Pa), in seeding order.

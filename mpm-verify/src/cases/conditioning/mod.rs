@@ -5,10 +5,8 @@
 mod run;
 
 use super::analysis::case_of;
-use crate::parameter::Parameter;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::HALF_AXES;
-use std::collections::BTreeMap;
 
 const LEVELS: [Level; 1] = [Level { name: "h0.1", h: 0.1 }];
 /// Unknowns of the displacement, at most.
@@ -56,44 +54,29 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "Half an ellipse at forty places within one cell of the pressure: condition numbers of the matrices of displacement and \
-                      pressure and of the whole, for strengths of the ghost penalties, and what these cost a cantilever.",
-        references: vec![
-            "Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more."
-                .to_owned(),
-            "Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand."
-                .to_owned(),
-        ],
-        limits: &[
-            "Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.",
-            "How flat condition numbers are with a penalty is observed, no theory of the material point method bounds it.",
-        ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![Wanted::new(
-            "bending",
-            "deflection of the cantilever over that without a penalty",
-            "no-body-bends-more",
-        )],
-        checks: checks(),
-        headlines: vec![
-            headline(COND_UU, "log₁₀ cond uu, most", 1.0, 2),
-            headline(COND_UU_MEAN, "mean", 1.0, 2),
-            headline(COND_PP, "log₁₀ cond pp, most", 1.0, 2),
-            headline(COND_PP_MEAN, "mean", 1.0, 2),
-            headline(DEFLECTION_CHANGE, "change of deflection (%)", 100.0, 2),
-        ],
-        watched: &["log10_cond_uu", "log10_cond_pp"],
-        sketch: sketch(),
-        tables: tables(),
-        ..case_of::<Setup<Ellipse>>("conditioning", "Condition numbers of a body that no grid line fits", ALL)
-    }
+    case_of::<Setup<Ellipse>>("conditioning", "Condition numbers of a body that no grid line fits", ALL)
+        .planned(plan())
+        .described("Half an ellipse at forty places within one cell of the pressure: condition numbers of the matrices of displacement and \
+            pressure and of the whole, for strengths of the ghost penalties, and what these cost a cantilever.")
+        .reference("Theory: a penalty is positive semidefinite, so that it lowers no eigenvalue and no body bends more.")
+        .reference("Figure 8 of Pretti et al., doi:10.1002/nme.7630, as its text tells: its numbers were not at hand.")
+        .limit("Matrices of an undeformed body at small strain, of the solver's functions and facets but assembled here.")
+        .limit("How flat condition numbers are with a penalty is observed, no theory of the material point method bounds it.")
+        .wanted("bending", "deflection of the cantilever over that without a penalty", "no-body-bends-more")
+        .checks(checks())
+        .headline(COND_UU, "log₁₀ cond uu, most", 1.0, 2)
+        .headline(COND_UU_MEAN, "mean", 1.0, 2)
+        .headline(COND_PP, "log₁₀ cond pp, most", 1.0, 2)
+        .headline(COND_PP_MEAN, "mean", 1.0, 2)
+        .headline(DEFLECTION_CHANGE, "change of deflection (%)", 100.0, 2)
+        .watched(&["log10_cond_uu", "log10_cond_pp"])
+        .sketch(sketch())
+        .tables(tables())
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let [two, equal] = [TwoGrid, Equal].map(|space| [Gimp, Linear].map(|basis| Scheme::poro(basis, space)));
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "h0.1", &two[..1], "positions=8")
         .runs(Pr, "h0.1", &two, "")
         .runs(Pr, "h0.1", &two, "alpha=0")
@@ -102,25 +85,22 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "h0.1", &two, "mobility=1")
         .runs(Nightly, "h0.1", &two, "alpha=0 mobility=1")
         .each(Nightly, "h0.1", &two, ["alpha=0.001", "alpha=0.01", "alpha=1", "alpha=10"])
-        .done()
 }
 
 fn sketch() -> Sketch {
     let [a, b] = HALF_AXES.map(|a| 0.1 * a);
     let arc = (0..=24).map(|k| {
-        let angle = std::f64::consts::PI * f64::from(k) / 24.0;
+        let angle = PI * f64::from(k) / 24.0;
         [a * angle.cos(), b * angle.sin()]
     });
-    Sketch {
-        shapes: vec![
-            Shape::Body(arc.collect()),
-            Shape::Held([-a, 0.0], [a, 0.0]),
-            Shape::length([-a, -0.2], [a, -0.2], "20 h"),
-            Shape::length([a + 0.15, 0.0], [a + 0.15, b], "6 h"),
-            Shape::note([0.0, 0.25], "moved through 2 h"),
-        ],
-        description: "Half an ellipse of 20 by 6 cells, held and drained at its straight side, which is moved along a grid line.",
-    }
+    Sketch::of(
+        "Half an ellipse of 20 by 6 cells, held and drained at its straight side, which is moved along a grid line.",
+    )
+    .body(arc)
+    .held([-a, 0.0], [a, 0.0])
+    .length([-a, -0.2], [a, -0.2], "20 h")
+    .length([a + 0.15, 0.0], [a + 0.15, b], "6 h")
+    .note([0.0, 0.25], "moved through 2 h")
 }
 
 /// The bounds are derived in `docs/conditioning.md`.
@@ -208,25 +188,19 @@ fn tables() -> Vec<ResultTable> {
     const OVER: Label = ("ghost of p over", |r| r.parameters.text(PRESSURE_GHOST));
     let two = |title, metric| Column::metric(title, metric, fixed(2));
     vec![
-        ResultTable::new(
-            "conditioning-alpha",
-            |r| r.changes_none_but(&["alpha"]),
-            &[SCHEME, ALPHA],
-            [
-                two("uu least", COND_UU_LEAST),
-                two("mean", COND_UU_MEAN),
-                two("most", COND_UU),
-                two("pp least", COND_PP_LEAST),
-                two("mean", COND_PP_MEAN),
-                two("most", COND_PP),
-                Column::metric("deflection", DEFLECTION_CHANGE, percent(2)),
-            ],
-        ),
-        ResultTable::new(
-            "conditioning-whole",
-            |r| r.changes_none_but(&["alpha", "mobility", "pressure_ghost"]),
-            &[SCHEME, WATER, ALPHA, OVER],
-            [("raw", COND), ("scaled", COND_SCALED)].map(|(title, metric)| Column::metric(title, metric, fixed(1))),
-        ),
+        ResultTable::of("conditioning-alpha", |r| r.changes_none_but(&["alpha"]))
+            .by(&[SCHEME, ALPHA])
+            .column(two("uu least", COND_UU_LEAST))
+            .column(two("mean", COND_UU_MEAN))
+            .column(two("most", COND_UU))
+            .column(two("pp least", COND_PP_LEAST))
+            .column(two("mean", COND_PP_MEAN))
+            .column(two("most", COND_PP))
+            .metric("deflection", DEFLECTION_CHANGE, percent(2)),
+        ResultTable::of("conditioning-whole", |r| r.changes_none_but(&["alpha", "mobility", "pressure_ghost"]))
+            .by(&[SCHEME, WATER, ALPHA, OVER])
+            .columns(
+                [("raw", COND), ("scaled", COND_SCALED)].map(|(title, metric)| Column::metric(title, metric, fixed(1))),
+            ),
     ]
 }

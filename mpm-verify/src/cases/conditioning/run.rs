@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::analysis::{Analysis, visited};
 use crate::cases::forms::{Cloud, Field, coarse, eigenvalues, log10_condition, scaled};
-use crate::record::WorkDone;
 use mpm_core::implicit::{Moduli, OfHats};
 use mpm_core::{Lattice, basis};
 use nalgebra::DMatrix;

@@ -1,9 +1,8 @@
 //! The checks of the column. Tolerances are derived in `docs/consolidation.md`.
 
 use super::*;
-use crate::cases::checks::{finest, index, observed_order, orders_in_time};
+use crate::cases::checks::{finest, index, ladders_by, observed_order, orders_in_time};
 use crate::exact::consolidation::layer;
-use std::collections::BTreeMap;
 
 /// The order in h that theory gives.
 const THEORY: f64 = 2.0;
@@ -92,18 +91,10 @@ fn resolves(r: &Record) -> bool {
 
 /// GIMP's three finest runs that change the load alone, by load and scheme, coarsest first.
 fn ladders(records: &[Record]) -> BTreeMap<(String, Scheme), Vec<&Record>> {
-    let mut ladders: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
     let own = |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
-    for r in records.iter().filter(own) {
-        let key = (number(r, |c| c.load).to_string(), r.scheme());
-        ladders.entry(key).or_default().push(r);
-    }
-    for runs in ladders.values_mut() {
-        runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        *runs = finest(runs).unwrap_or_default().to_vec();
-    }
-    ladders.retain(|_, runs| !runs.is_empty());
-    ladders
+    let ladders = ladders_by(records.iter().filter(own), |r| (number(r, |c| c.load).to_string(), r.scheme()));
+    let finest = ladders.into_iter().filter_map(|(key, runs)| Some((key, finest(&runs)?.to_vec())));
+    finest.collect()
 }
 
 fn orders(records: &[Record]) -> Vec<Finding> {

@@ -6,11 +6,9 @@ mod checks;
 pub(super) mod foreign;
 mod run;
 
-use super::family::levels;
 use super::poro::{ROUNDING, spaces};
+use crate::cases::prelude::*;
 use crate::exact::consolidation::{At, solution};
-use crate::parameter::Parameter;
-use crate::prelude::*;
 use run::HEIGHT;
 
 const LEVELS: [(&str, f64); 6] =
@@ -71,49 +69,42 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(HEIGHT, LEVELS);
-    Case {
-        description: "A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
-                      the grid's lines, particles cross cells, pores close and let less water through.",
-        references: vec![
-            "references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸."
-                .to_owned(),
-            "The same of backward Euler's steps: the error of space by itself.".to_owned(),
-        ],
-        limits: &[
-            "One dimension; the improved Hencky law is our own, from its published description.",
-            "References at loads of 0.003, 0.3 and 1 M₀ alone.",
-            "Linear functions break down at large strain: what they would come to is not known.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("settlement", "settlement over time", "settlement").missed_by("logarithm-loses-water"),
-            Wanted::new("pressure", "pressure at the base over time", "base-pressure")
-                .missed_by("logarithm-loses-water"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 3),
-            headline(SETTLEMENT_ERROR_STEPS, "of space alone (%)", 100.0, 3),
-            headline(BASE_PRESSURE_ERROR, "error of p at the base (% of q)", 100.0, 3),
-            headline(SETTLEMENT_END, "settlement (% of H)", 100.0, 3),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(RATE_LOSS, "½ Σ V (J̃ − 1)² over the outflow (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(SETTLEMENT_ERROR_STEPS, "relative error of the settlement in space"),
-            error(SETTLEMENT_ERROR, "relative error of the settlement"),
-        ],
-        watched: &["base_pressure", "settlement"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-1)),
-        pictures,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
-    }
+    Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
+        .planned(plan())
+        .described("A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
+            the grid's lines, particles cross cells, pores close and let less water through.")
+        .reference("references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸.")
+        .reference("The same of backward Euler's steps: the error of space by itself.")
+        .limit("One dimension; the improved Hencky law is our own, from its published description.")
+        .limit("References at loads of 0.003, 0.3 and 1 M₀ alone.")
+        .limit("Linear functions break down at large strain: what they would come to is not known.")
+        .wanted("settlement", "settlement over time", "settlement")
+        .missed_by("logarithm-loses-water")
+        .wanted("pressure", "pressure at the base over time", "base-pressure")
+        .missed_by("logarithm-loses-water")
+        .checks(checks::checks())
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 3)
+        .headline(SETTLEMENT_ERROR_STEPS, "of space alone (%)", 100.0, 3)
+        .headline(BASE_PRESSURE_ERROR, "error of p at the base (% of q)", 100.0, 3)
+        .headline(SETTLEMENT_END, "settlement (% of H)", 100.0, 3)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(RATE_LOSS, "½ Σ V (J̃ − 1)² over the outflow (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(SETTLEMENT_ERROR_STEPS, "relative error of the settlement in space"))
+        .quantity(error(SETTLEMENT_ERROR, "relative error of the settlement"))
+        .watched(&["base_pressure", "settlement"])
+        .sketch(Sketch::of(
+            "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
+        )
+        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+        .held([0.0, 0.0], [0.3, 0.0])
+        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
+        .note([0.15, 1.2], "q, drained")
+        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-1))
+        .pictures(pictures)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// Reason why a run of this kind is known to break down: at large strain linear functions see the load's corner leave the cells
@@ -125,11 +116,11 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     )
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const COARSE: &str = "n8 n16 n32";
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let (both, two_grid) = ([gimp, linear].concat(), &gimp[..1]);
-    Plan::of(levels)
+    Plan::of(levels(HEIGHT, LEVELS))
         .runs(Quick, "n8", two_grid, "refine=1")
         .runs(Pr, "n8 n16 n32 n64", &gimp, "")
         .runs(Pr, "n16", &both, "load=0.003")
@@ -146,24 +137,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n16", two_grid, "refine=1 volume_rate=logarithmic")
         .each(Nightly, COARSE, two_grid, GHOSTS)
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
-        .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
-        Shape::Held([0.0, 0.0], [0.3, 0.0]),
-        Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-        Shape::note([0.15, 1.2], "q, drained"),
-    ];
-    shapes.extend((0..3).map(|k| {
-        let x = 0.05 + 0.1 * f64::from(k);
-        Shape::Load([x, 1.13], [x, 1.02])
-    }));
-    Sketch {
-        shapes,
-        description: "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
-    }
 }
 
 fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {
@@ -180,54 +153,39 @@ fn tables() -> Vec<ResultTable> {
         let levels = levels.iter().map(|(level, n)| (*level, format!("{title}n = {n}")));
         Column::levels(levels, SETTLEMENT_ERROR_STEPS, share(3))
     };
-    let mut of_cells = errors(&LEVELS, "");
-    of_cells.push(Column::order(SETTLEMENT_ERROR_STEPS));
-    of_cells.extend(Column::levels([("n16", "with that of time, n = 16")], SETTLEMENT_ERROR, share(2)));
     let of_drains = [100.0, 1e3, 1e4].into_iter().flat_map(|drain| {
         LEVELS[..3].iter().map(move |(level, n)| {
             let at = move |r: &Record| r.level == *level && number(r, |c| c.drain) == drain;
             Column::metric(format!("β h/κ₀ = {drain}, n = {n}"), SETTLEMENT_ERROR_STEPS, share(3)).of(at)
         })
     });
-    let of_water = [
-        Column::metric("water made", MASS_ERROR, scientific(2)),
-        Column::metric("½ Σ V (J̃ − 1)²", RATE_LOSS, scientific(2)),
-        Column::metric("error of settlement", SETTLEMENT_ERROR, share(2)),
-    ];
     let is_two_grid = |r: &Record| r.scheme() == Scheme::poro(Gimp, TwoGrid);
     vec![
-        ResultTable::new(
-            "consolidation-cells",
-            |r| r.basis() == Gimp && r.changes_none_but(&["load"]),
-            &[LOADED, SCHEME],
-            of_cells,
-        ),
+        ResultTable::of("consolidation-cells", |r| r.basis() == Gimp && r.changes_none_but(&["load"]))
+            .by(&[LOADED, SCHEME])
+            .columns(errors(&LEVELS, ""))
+            .column(Column::order(SETTLEMENT_ERROR_STEPS))
+            .columns(Column::levels([("n16", "with that of time, n = 16")], SETTLEMENT_ERROR, share(2))),
         // Linear functions, where they come to the end.
-        ResultTable::new(
-            "consolidation-linear",
-            |r| r.basis() == Linear && r.changes_none_but(&["load"]),
-            &[LOADED, SCHEME],
-            errors(&LEVELS, ""),
-        ),
-        ResultTable::new(
-            "consolidation-drain",
-            |r| r.basis() == Gimp && r.changes_none_but(&["drain"]),
-            &[SCHEME],
-            of_drains,
-        )
-        .across(),
-        ResultTable::new(
-            "consolidation-ghosts",
-            move |r| is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]),
-            &[GHOST_U, GHOST_P],
-            errors(&LEVELS[..3], "error of settlement, "),
-        ),
-        ResultTable::new(
-            "consolidation-water",
-            move |r| is_two_grid(r) && r.level == "n16" && r.changes_none_but(&["load", "refine", "volume_rate"]),
-            &[LOADED, RATE, STEPS],
-            of_water,
-        ),
+        ResultTable::of("consolidation-linear", |r| r.basis() == Linear && r.changes_none_but(&["load"]))
+            .by(&[LOADED, SCHEME])
+            .columns(errors(&LEVELS, "")),
+        ResultTable::of("consolidation-drain", |r| r.basis() == Gimp && r.changes_none_but(&["drain"]))
+            .by(&[SCHEME])
+            .columns(of_drains)
+            .across(),
+        ResultTable::of("consolidation-ghosts", move |r| {
+            is_two_grid(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"])
+        })
+        .by(&[GHOST_U, GHOST_P])
+        .columns(errors(&LEVELS[..3], "error of settlement, ")),
+        ResultTable::of("consolidation-water", move |r| {
+            is_two_grid(r) && r.level == "n16" && r.changes_none_but(&["load", "refine", "volume_rate"])
+        })
+        .by(&[LOADED, RATE, STEPS])
+        .metric("water made", MASS_ERROR, scientific(2))
+        .metric("½ Σ V (J̃ − 1)²", RATE_LOSS, scientific(2))
+        .metric("error of settlement", SETTLEMENT_ERROR, share(2)),
     ]
 }
 

@@ -2,10 +2,9 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{base_pressure, mass_error, matrix_entries, over_outflow};
+use crate::cases::poro::{base_pressure, lost_volume, mass_error, matrix_entries, over_outflow};
 use crate::exact::consolidation::between;
-use mpm_core::material::ImprovedHencky;
-use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};
+use mpm_core::poro::{Face, Settings, Tangent, VolumeRate};
 
 /// Height of the column (m).
 pub(super) const HEIGHT: f64 = 1.0;
@@ -107,13 +106,6 @@ pub(super) struct Seen {
     volume_step: f64,
 }
 
-/// Settlement over H.
-fn settlement(run: &dyn Simulation<1>) -> f64 {
-    let p = run.particles();
-    let volume = |of: &[f64]| of.iter().sum::<f64>();
-    (volume(&p.reference_volume) - volume(&p.volume)) / HEIGHT
-}
-
 impl Problem<1> for Setup<Consolidation> {
     type Parameters = Consolidation;
     type Seen = Seen;
@@ -131,12 +123,10 @@ impl Problem<1> for Setup<Consolidation> {
         let cells = (HEIGHT / h).round() as usize;
         let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
         let spacing = h / PER_CELL as f64;
-        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
+        let particles = self.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
         let law = ImprovedHencky::new(BULK, SHEAR, POROSITY)?;
-        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
         let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
         let load = self.whole_load();
         let traction = move |t: f64| [-load * (t / (RAMP * TIME_SCALE)).min(1.0)];
@@ -177,7 +167,7 @@ impl Problem<1> for Setup<Consolidation> {
         }
         let at = At {
             t: run.time() / TIME_SCALE,
-            settlement: settlement(run),
+            settlement: lost_volume(run) / HEIGHT,
             base: base_pressure(run) / self.whole_load(),
         };
         seen.rows.push(at);

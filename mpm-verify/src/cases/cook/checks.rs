@@ -4,7 +4,6 @@ use super::reference::{Deflections, Measure, Solution, StressField};
 use super::run::CREEP;
 use super::*;
 use Measure::{EdgeMean, MidEdge, Tip};
-use std::collections::BTreeMap;
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
 const EDGE_TOLERANCE: f64 = 0.01;

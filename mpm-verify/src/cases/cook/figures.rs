@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{FieldFigure, FieldPanel};
 use reference::Measure;
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa

@@ -9,11 +9,7 @@ mod probes;
 mod reference;
 mod run;
 
-use super::family::{REMEDIES, main_pairs, other_transfers, pairs, transfers};
-use super::parameters as common;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use crate::results::BASIS;
+use crate::cases::prelude::*;
 use reference::{LEFT_HEIGHT, LENGTH, MID_EDGE, TIP};
 
 /// Levels with their cell sizes (m) and titles.
@@ -104,73 +100,47 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let levels = LEVELS.map(|(name, h, _)| Level { name, h });
     let metrics: Vec<Metric> = OWN.iter().copied().chain(MEAN_STRESSES.iter().map(|(metric, _)| *metric)).collect();
-    Case {
-        description: "A tapered membrane of nearly incompressible neo-Hookean rubber (plane strain, ν = 0.499), \
-                      clamped on the left, sheared by a dead load on the right; run to rest. Standard MPM locks; \
-                      the F̄ remedies don't; the recursive one creeps and never rests.",
-        references: reference::describe(),
-        limits: &[
-            "The tip is a weakly singular point: the middle of the right side and the edge's mean are the primary measures.",
-            "The particles fill cells of the lattice, 1,444 m² instead of 1,440 m² at h = 1 and ½; the sloping sides are stairs.",
-            "The state of rest is approached by kinetic damping; the path to it has no physical meaning.",
-            "With fbar-consistent the error does not fall from h = 1 m to ½ m: what the edge of the body adds stays.",
-        ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
-        wanted: vec![
-            Wanted::new("deflection", "displacement of the right side at rest", "mid-edge edge-mean tip").firmly_by("load-at-its-place large-loads").missed_by("locked locks creep never-at-rest rests-late soft-rim short-by-the-loads-place too-stiff-with-more-particles too-soft-when-compressible"),
-            Wanted::new("pressure", "mean stress at rest, rms and at seven points", "mean-stress-rms mean-stress-probe smooth-pressure").missed_by("locked locks creep never-at-rest rests-late noisy-pressure pressure-near-free-side"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(FEM_MID_EDGE_ERROR, "mid-edge error (%)", 100.0, 2),
-            headline(FEM_EDGE_MEAN_ERROR, "edge-mean error (%)", 100.0, 2),
-            headline(FEM_TIP_ERROR, "tip error (%)", 100.0, 2),
-            headline(MEAN_STRESS_RMS_ERROR, "σ_m rms error (mPa)", 1e3, 1),
-            headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
-            headline(AT_REST, "at rest (1: yes)", 1.0, 0),
-            headline(REST_TIME, "time at the end (s)", 1.0, 0),
-            headline(CREEP_RATE, "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2),
-        ],
-        quantities: vec![
-            error(FEM_EDGE_MEAN_ERROR, "relative error of edge-mean u_y"),
-            error(MEAN_STRESS_RMS_ERROR, "rms error of σ_m (Pa)"),
-            value(TIP_UX, "tip u_x (m)"),
-        ],
-        sweeps: vec![Sweep {
-            parameter: POISSON_RATIO,
-            label: "0.5 − ν",
-            abscissa: |ratio| 0.5 - ratio,
-            logarithmic: true,
-        }],
-        watched: &["tip_uy", "log_jacobian_gap_rms"],
-        field: Some(FieldView {
-            time: None,
-            value: "mean_stress",
-            label: "mean normal stress at rest (Pa)",
-            range: (-1.0, 1.0),
-            window: [(0.0, 48.0), (0.0, 60.0)],
-        }),
-        sketch: sketch(),
-        cost: Box::new(cost),
-        own_runs,
-        pictures: figures::draw,
-        tables: tables(),
-        ..Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
-    }
-}
-
-fn cost(spec: &RunSpec) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        FbarRecursive => 2.5,
-        FbarTotal | FbarRate => 1.5,
-        FbarConsistent => 3.0,
-    };
-    sweep / spec.level.h.powi(3)
+    Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
+        .planned(plan())
+        .described("A tapered membrane of nearly incompressible neo-Hookean rubber (plane strain, ν = 0.499), \
+            clamped on the left, sheared by a dead load on the right; run to rest. Standard MPM locks; \
+            the F̄ remedies don't; the recursive one creeps and never rests.")
+        .references(reference::describe())
+        .limit("The tip is a weakly singular point: the middle of the right side and the edge's mean are the primary measures.")
+        .limit("The particles fill cells of the lattice, 1,444 m² instead of 1,440 m² at h = 1 and ½; the sloping sides are stairs.")
+        .limit("The state of rest is approached by kinetic damping; the path to it has no physical meaning.")
+        .limit("With fbar-consistent the error does not fall from h = 1 m to ½ m: what the edge of the body adds stays.")
+        .wanted("deflection", "displacement of the right side at rest", "mid-edge edge-mean tip")
+        .firmly_by("load-at-its-place large-loads")
+        .missed_by("locked locks creep never-at-rest rests-late soft-rim short-by-the-loads-place too-stiff-with-more-particles too-soft-when-compressible")
+        .wanted("pressure", "mean stress at rest, rms and at seven points", "mean-stress-rms mean-stress-probe smooth-pressure")
+        .missed_by("locked locks creep never-at-rest rests-late noisy-pressure pressure-near-free-side")
+        .checks(checks::checks())
+        .headline(FEM_MID_EDGE_ERROR, "mid-edge error (%)", 100.0, 2)
+        .headline(FEM_EDGE_MEAN_ERROR, "edge-mean error (%)", 100.0, 2)
+        .headline(FEM_TIP_ERROR, "tip error (%)", 100.0, 2)
+        .headline(MEAN_STRESS_RMS_ERROR, "σ_m rms error (mPa)", 1e3, 1)
+        .headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2)
+        .headline(AT_REST, "at rest (1: yes)", 1.0, 0)
+        .headline(REST_TIME, "time at the end (s)", 1.0, 0)
+        .headline(CREEP_RATE, "creep of ln(J/J̄) (10⁻⁶/s)", 1e6, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) at the end (10⁻⁴)", 1e4, 2)
+        .quantity(error(FEM_EDGE_MEAN_ERROR, "relative error of edge-mean u_y"))
+        .quantity(error(MEAN_STRESS_RMS_ERROR, "rms error of σ_m (Pa)"))
+        .quantity(value(TIP_UX, "tip u_x (m)"))
+        .sweep(Sweep::of(POISSON_RATIO, "0.5 − ν").over(|ratio| 0.5 - ratio).logarithmic())
+        .watched(&["tip_uy", "log_jacobian_gap_rms"])
+        .field(FieldView::at_end(
+            ["mean_stress", "mean normal stress at rest (Pa)"],
+            (-1.0, 1.0),
+            [(0.0, 48.0), (0.0, 60.0)],
+        ))
+        .sketch(sketch())
+        .cost(|spec| remedy_cost(spec, [1.0, 2.5, 1.5, 1.5, 3.0]) / spec.level.h.powi(3))
+        .own_runs(own_runs)
+        .pictures(figures::draw)
+        .tables(tables())
 }
 
 /// One record for each scheme and level at the case's own parameters. A state of rest hardly depends on the time step:
@@ -187,7 +157,7 @@ fn differs_in_step(r: &Record) -> bool {
     r.changes_only("cfl") && r.remedy() != FbarRecursive
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let three = [Gimp, Bspline2, Bspline3];
     let gimp = |remedies: &[RemedyName]| pairs(&[Gimp], remedies);
@@ -200,7 +170,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     // Loads under which explicit bodies leave the grid, in as many steps, with functions of the rim held.
     let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16), (50, 20)];
     // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
-    Plan::of(levels)
+    Plan::of(LEVELS.map(|(name, h, _)| Level { name, h }))
         .runs(Quick, "h2", &gimp(&REMEDIES), "")
         .runs(Quick, "h2", &gimp(&[FbarRecursive]), "cfl=0.15")
         .runs(Pr, "h2", &two(&REMEDIES), "")
@@ -239,29 +209,22 @@ fn plan(levels: &[Level]) -> Vec<Family> {
             &statics[1],
             large_loads.map(|(load, steps)| format!("load={load} load_steps={steps} ghost=0.001")),
         )
-        .done()
 }
 
 fn sketch() -> Sketch {
-    let probe = |at, label: &str| Shape::Probe { at, label: label.to_owned() };
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [LENGTH, LEFT_HEIGHT], TIP, [0.0, LEFT_HEIGHT]]),
-        Shape::Held([0.0, 0.0], [0.0, LEFT_HEIGHT]),
-        Shape::length([0.0, -6.0], [LENGTH, -6.0], "48 m"),
-        Shape::length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m"),
-        Shape::length([58.0, LEFT_HEIGHT], [58.0, TIP[1]], "16 m"),
-        Shape::note([52.0, 40.0], "1 N/m"),
-    ];
-    for k in 0..4 {
+    let membrane = Sketch::of("A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.")
+        .body([[0.0, 0.0], [LENGTH, LEFT_HEIGHT], TIP, [0.0, LEFT_HEIGHT]])
+        .held([0.0, 0.0], [0.0, LEFT_HEIGHT])
+        .length([0.0, -6.0], [LENGTH, -6.0], "48 m")
+        .length([-8.0, 0.0], [-8.0, LEFT_HEIGHT], "44 m")
+        .length([58.0, LEFT_HEIGHT], [58.0, TIP[1]], "16 m")
+        .note([52.0, 40.0], "1 N/m");
+    let pulled = (0..4).fold(membrane, |sketch, k| {
         let y = LEFT_HEIGHT + 4.0 * f64::from(k);
-        shapes.push(Shape::Load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2]));
-    }
-    shapes.extend([probe(TIP, "tip"), probe(MID_EDGE, "mid-edge")]);
-    shapes.extend(MEAN_STRESSES.iter().map(|(_, x)| probe(*x, "σ_m")));
-    Sketch {
-        shapes,
-        description: "A trapezoid 48 m long, 44 m high at its clamped left side and 16 m at its right side, which carries an upward load.",
-    }
+        sketch.load([LENGTH + 2.0, y], [LENGTH + 2.0, y + 3.2])
+    });
+    let probed = pulled.probe(TIP, "tip").probe(MID_EDGE, "mid-edge");
+    MEAN_STRESSES.iter().fold(probed, |sketch, (_, x)| sketch.probe(*x, "σ_m"))
 }
 
 fn tables() -> Vec<ResultTable> {
@@ -313,45 +276,30 @@ fn tables() -> Vec<ResultTable> {
         own && is_flip(r) && r.level == "h1" && RATIOS.iter().any(|(_, set)| r.set == *set)
     };
 
-    let of_static = over_levels("mid-edge error", error)
-        .into_iter()
-        .chain([Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1")])
-        .chain(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s)));
-    let of_rim = [
-        Column::text("mid-edge error", error),
-        Column::value("of the load at its place", checks::mid_edge_error, percent(2)),
-        Column::metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4)),
-        Column::metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
-        Column::metric("linear iterations", LINEAR_ITERATIONS, fixed(0)),
-    ];
     vec![
-        ResultTable::new(
-            "cook",
-            is_shown,
-            &[SCHEME],
-            over_levels("mid-edge error", error_at_rest).into_iter().chain(over_levels("checkerboard", noise)),
-        ),
+        ResultTable::of("cook", is_shown)
+            .by(&[SCHEME])
+            .columns(over_levels("mid-edge error", error_at_rest))
+            .columns(over_levels("checkerboard", noise)),
         ResultTable::new("cook-overview", is_shown, &[BASIS], overview),
         transfers("cook-transfers", &[PAIR, CELLS], &["3", "4"], error),
-        ResultTable::new(
-            "cook-poisson",
-            at_ratios,
-            &[SCHEME],
-            over_ratios("mid-edge error", error_at_rest).into_iter().chain(over_ratios("checkerboard", noise)),
-        )
-        .least(3),
-        ResultTable::new(
-            "cook-static",
-            |r| is_static(r) && r.changes_none_but(&["load_steps"]),
-            &[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))],
-            of_static,
-        ),
+        ResultTable::of("cook-poisson", at_ratios)
+            .by(&[SCHEME])
+            .columns(over_ratios("mid-edge error", error_at_rest))
+            .columns(over_ratios("checkerboard", noise))
+            .least(3),
+        ResultTable::of("cook-static", |r| is_static(r) && r.changes_none_but(&["load_steps"]))
+            .by(&[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))])
+            .columns(over_levels("mid-edge error", error))
+            .column(Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1"))
+            .columns(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s))),
         // Effect of a held rim, of a single step and of a larger load.
-        ResultTable::new(
-            "cook-rim",
-            |r| is_static(r) && r.level == "h1",
-            &[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })],
-            of_rim,
-        ),
+        ResultTable::of("cook-rim", |r| is_static(r) && r.level == "h1")
+            .by(&[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })])
+            .text("mid-edge error", error)
+            .value("of the load at its place", checks::mid_edge_error, percent(2))
+            .metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0))
+            .metric("linear iterations", LINEAR_ITERATIONS, fixed(0)),
     ]
 }

@@ -2,8 +2,7 @@
 
 use super::reference::{LEFT_HEIGHT, Measure, RIGHT_HEIGHT};
 use super::*;
-use crate::probe::{PointProbe, nearest};
-use crate::statistics::rms;
+use crate::probe::nearest;
 
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;
@@ -21,9 +20,6 @@ pub(super) struct Probes {
 
 impl Probes {
     /// In particles at `references` (m) on cells of size `h` (m).
-    ///
-    /// # Errors
-    /// Too few particles.
     pub(super) fn new(references: Vec<[f64; 2]>, h: f64) -> Result<Self, Error> {
         let at = |[x, y]: [f64; 2]| {
             PointProbe::new(&references, [x, y], 2.0 * h)

@@ -1,8 +1,6 @@
 //! The membrane's geometry, and the reference: an independent finite-element solution, valid for stated parameters.
 
 use super::*;
-use crate::statistics::rms;
-use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");

@@ -3,13 +3,9 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress};
-use crate::cases::parameters::require_quotient;
-use crate::statistics::{Line, fit_line, rms};
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::implicit::{Settings, Stabilisation};
-use mpm_core::material::{Law, NeoHookean};
+use crate::cases::observe::{checkerboard, displacement, mean_stress};
+use crate::statistics::Line;
+use mpm_core::implicit::Settings;
 use mpm_core::stage::{DeadForce, KineticDamping, Load, Observation, RestCriterion};
 use mpm_core::{Memory, Saved};
 use std::ops::RangeInclusive;
@@ -42,18 +38,9 @@ const OF_QUASI_STATIC: [&str; 2] = ["load_steps", "ghost"];
 fn seed(spacing: f64) -> Vec<[f64; 2]> {
     let lower = |x: f64| LEFT_HEIGHT * x / LENGTH;
     let upper = |x: f64| LEFT_HEIGHT + RIGHT_HEIGHT * x / LENGTH;
-    let count = |length: f64| (length / spacing).round() as usize;
-    let mut positions = Vec::new();
-    for i in 0..count(LENGTH) {
-        let x = (i as f64 + 0.5) * spacing;
-        for j in 0..count(LEFT_HEIGHT + RIGHT_HEIGHT) {
-            let y = (j as f64 + 0.5) * spacing;
-            if y >= lower(x) - ON_SIDE && y <= upper(x) + ON_SIDE {
-                positions.push([x, y]);
-            }
-        }
-    }
-    positions
+    let counts = [LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT].map(|length| (length / spacing).round() as usize);
+    let inside = |[x, y]: &[f64; 2]| *y >= lower(*x) - ON_SIDE && *y <= upper(*x) + ON_SIDE;
+    by_columns(counts, spacing).filter(inside).collect()
 }
 
 impl Setup<Cook> {
@@ -67,29 +54,20 @@ impl Setup<Cook> {
         self.load_ramp * self.period()
     }
 
-    /// Distance of particles (m).
-    fn spacing(&self) -> f64 {
-        self.h / self.ppc_per_direction as f64
-    }
-
     fn law(&self) -> Result<NeoHookean, mpm_core::Error> {
         NeoHookean::new(self.young_modulus, self.poisson_ratio)
     }
 
     /// Initial positions (m) of the particles.
     fn places(&self) -> Vec<[f64; 2]> {
-        self.start_at(seed(self.spacing()))
+        self.start_at(seed(self.pitch()))
     }
 
-    fn particles(&self) -> Result<Particles<2>, mpm_core::Error> {
-        let spacing = self.spacing();
-        Particles::new(self.places(), spacing * spacing, self.density, [0.5 * spacing; 2])
+    fn particles(&self) -> Result<Particles<2>, Fault> {
+        self.particles_at(seed(self.pitch()), self.pitch(), self.density)
     }
 
     /// The particles at their start, with the shares of the full load as their external forces.
-    ///
-    /// # Errors
-    /// Parameters that make no body.
     pub(super) fn loaded_particles(&self) -> Result<Particles<2>, mpm_core::Error> {
         let mut particles = self.particles()?;
         for load in self.loads(0.0, &particles) {
@@ -101,7 +79,7 @@ impl Setup<Cook> {
     /// The dead load, which grows over `ramp` (s): on the last column of particles, or on the last two with shares 3/2 and
     /// −1/2, whose resultant acts on the side itself.
     fn loads(&self, ramp: f64, particles: &Particles<2>) -> Vec<DeadForce<2>> {
-        let spacing = self.spacing();
+        let spacing = self.pitch();
         let column = |share: f64, from_edge: f64| {
             DeadForce::shared([0.0, share * self.load], ramp, particles, |x| {
                 (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
@@ -123,8 +101,8 @@ impl Setup<Cook> {
         let up = Axis::open(-below, cells(below + LEFT_HEIGHT + RIGHT_HEIGHT + above + headroom));
         let particles = self.particles()?;
         let loads = self.loads(ramp, &particles);
-        let clamp = Wall { axis: 0, end: End::Lo, kind: WallKind::Fixed };
-        let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(self.law()?, particles)?).constrain(clamp);
+        let scene =
+            Scene::new(Grid::new(h, [along, up])?, Body::new(self.law()?, particles)?).constrain(clamp(0, End::Lo));
         Ok(loads.into_iter().fold(scene, Scene::load))
     }
 
@@ -167,12 +145,6 @@ impl Seen {
         let later = self.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
         fit_line(&later.collect::<Vec<_>>())
     }
-}
-
-/// Displacement (m) along an axis, in seeding order.
-fn displacement(run: &dyn Simulation<2>, axis: usize) -> Vec<f64> {
-    let p = run.particles();
-    p.seeded(|k| p.position[k][axis] - p.reference[k][axis])
 }
 
 /// One step, and the out-of-balance virtual work in it: Σ m a·u over Σ f·u of the load. In a
@@ -344,7 +316,7 @@ impl Problem<2> for Membrane {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {

@@ -4,12 +4,10 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, other_transfers, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::parameter::Domain;
-use crate::prelude::*;
 use crate::problem::begin;
-use mpm_core::material::{NeoHookean, Viscous};
+use mpm_core::material::Viscous;
 use run::{PERIOD, Trials};
 
 const LEVELS: [Level; 1] = [Level { name: "n6", h: 1.0 / PERIOD as f64 }];
@@ -50,34 +48,26 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
-                      does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
-                      grid, compressed and stretched, and with an artificial viscosity.",
-        references: vec![
-            "Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.".to_owned(),
-            "A bound for any arrangement of particles, docs/critical-step.md.".to_owned(),
-        ],
-        limits: &[
-            "Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.",
-            "CFL numbers of one and more are refused by the program and not tried.",
-        ],
-        levels: LEVELS.to_vec(),
-        plan: plan(),
-        wanted: vec![
-            Wanted::new("largest-step", "largest stable step over that of linear analysis", "largest-step").missed_by("small-cut fed-by-mean-stress"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3),
-            headline(PREDICTED_CFL, "predicted (–)", 1.0, 3),
-            headline(OFFERED_CFL, "offered (–)", 1.0, 3),
-            headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3),
-        ],
-        watched: &["growth", "cfl"],
-        sketch: sketch(),
-        cost: Box::new(|_| 0.1),
-        begin: Box::new(|spec, values| {
+    Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
+        .planned(plan())
+        .described("A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
+            does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
+            grid, compressed and stretched, and with an artificial viscosity.")
+        .reference("Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.")
+        .reference("A bound for any arrangement of particles, docs/critical-step.md.")
+        .limit("Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.")
+        .limit("CFL numbers of one and more are refused by the program and not tried.")
+        .wanted("largest-step", "largest stable step over that of linear analysis", "largest-step")
+        .missed_by("small-cut fed-by-mean-stress")
+        .checks(checks())
+        .headline(CRITICAL_CFL, "critical CFL (–)", 1.0, 3)
+        .headline(PREDICTED_CFL, "predicted (–)", 1.0, 3)
+        .headline(OFFERED_CFL, "offered (–)", 1.0, 3)
+        .headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3)
+        .watched(&["growth", "cfl"])
+        .sketch(sketch())
+        .cost(|_| 0.1)
+        .begun(|spec, values| {
             let setup = Setup::<Step>::of_spec(spec, values)?;
             match setup.dimension {
                 1 if setup.linear_viscosity > 0.0 => begin::<1, Trials<1, Viscous<NeoHookean>>>(spec, values),
@@ -85,13 +75,11 @@ pub(super) fn case() -> Case {
                 2 => begin::<2, Trials<2, NeoHookean>>(spec, values),
                 _ => begin::<3, Trials<3, NeoHookean>>(spec, values),
             }
-        }),
-        tables: tables(),
-        ..Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
-    }
+        })
+        .tables(tables())
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let flip = pairs(&BASES, &REMEDIES);
     let mut all = flip.clone();
@@ -99,7 +87,7 @@ fn plan() -> Vec<Family> {
     all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
     let plain = pairs(&BASES, &[none]);
     let space = pairs(&[Gimp, Bspline2], &REMEDIES);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n6", &flip[..1], "dimension=1")
         .runs(Quick, "n6", &plain[..1], "dimension=1 layout=cut")
         .runs(Pr, "n6", &all, "")
@@ -114,16 +102,16 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "n6", &space, "dimension=3")
         .each(Pr, "n6", &plain, ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")))
         .each(Nightly, "n6", &flip, [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")))
-        .done()
 }
 
 fn sketch() -> Sketch {
-    let dot = |x| Shape::Probe { at: [x, 0.5], label: String::new() };
-    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
-    shapes.extend([0.125, 0.375, 0.625, 0.875].map(dot));
-    shapes.push(Shape::note([0.5, 0.8], "noise"));
-    shapes.push(Shape::length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"));
-    Sketch { shapes, description: "A periodic lattice of particles, six cells in a period, at rest except for noise." }
+    let lattice = Sketch::of("A periodic lattice of particles, six cells in a period, at rest except for noise.")
+        .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+    [0.125, 0.375, 0.625, 0.875]
+        .into_iter()
+        .fold(lattice, |sketch, x| sketch.probe([x, 0.5], ""))
+        .note([0.5, 0.8], "noise")
+        .length([0.0, -0.1], [1.0, -0.1], "6 h, periodic")
 }
 
 impl Setup<Step> {

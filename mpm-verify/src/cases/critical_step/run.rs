@@ -4,10 +4,9 @@ use super::*;
 use crate::cases::noise::noise;
 use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
-use mpm_core::explicit::{Settings, courant_time_step};
+use mpm_core::explicit::Settings;
 use mpm_core::material::Viscous;
-use mpm_core::{Error as Fault, Law};
-use mpm_solvers::{Solvable, solver};
+use mpm_solvers::solver;
 use nalgebra::SMatrix;
 
 /// Cells of a period, or of the body where it has a free end; cells beside it there.
@@ -205,10 +204,9 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
 
     fn discretisation(&self) -> Discretisation {
         let longest = courant_time_step(MOST, self.setup.h, self.speed);
-        let ppc = self.setup.ppc_per_direction.pow(D as u32);
         // The lattice has no walls.
         let wall = String::new();
-        Discretisation { wall, ..self.setup.discretisation(D, ppc, longest) }
+        Discretisation { wall, ..self.setup.regular(D, longest) }
     }
 
     fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{FieldFigure, FieldPanel, animate_fields, share_ranges_of_columns, signed};
+use crate::draw::{animate_fields, signed};
 use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
 /// From above: standard, the paper's, ours.
@@ -151,46 +151,37 @@ fn flow(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     };
     let (mut by_remedy, mut by_level) = (Vec::new(), Vec::new());
     for (column, factor, label) in quantities {
-        let history = |r: &Record| {
-            let points = runs.history(r, ["time", column])?.into_iter();
-            Ok(points.map(|(t, v)| (t, factor * v)).collect())
-        };
-        let curves = runs.by_remedy((basis, shared), &REMEDIES, history)?;
-        by_remedy.push(chart(level_title(shared), label, column, curves));
-        let mut curves = Vec::new();
+        let points = |_: &Record, t: &Table| t.pairs(["time", column], |t, v| (t, factor * v));
+        let all = REMEDIES.iter().filter_map(|remedy| runs.find(basis, *remedy, shared));
+        let panel = Panel::new(level_title(shared), ["time (s)", label])
+            .histories(runs.gallery, all, points)?
+            .by_run(|r, s| Series { name: remedy_title(r.remedy()), ..s });
+        by_remedy.push(beside_front(panel, column));
+        let mut panel = Panel::new(format!("fbar-consistent, {LADDER}"), ["time (s)", label]);
         for (colour, level) in FINEST_FIRST.into_iter().enumerate() {
-            if let Some(record) = on_the_ladder(runs, basis, level) {
-                curves.push(Series::line(level_title(level), history(record)?, colour));
-            }
+            panel = panel
+                .histories(runs.gallery, on_the_ladder(runs, basis, level), points)?
+                .styled(|_, s| Series::line(level_title(level), s.points, colour));
         }
-        let title = format!("fbar-consistent, {}", LADDER);
-        by_level.push(chart(title, label, column, curves));
+        by_level.push(beside_front(panel, column));
     }
-    let mut charts = [by_remedy, by_level].concat();
-    charts.retain(Chart::shows_something);
-    if charts.is_empty() {
-        return Ok(());
-    }
-    let name = format!("flow-{basis}");
-    share_ranges_of_columns(&runs.place(&name), &mut charts, quantities.len())?;
     let (of, level) = (basis_title(basis), level_title(shared));
-    runs.charts(
-        &name,
-        &charts,
-        quantities.len(),
+    Figure::new(
+        format!("flow-{basis}"),
         format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at {level}; below, fbar-consistent at all levels with one CFL number. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m."),
+        by_remedy.into_iter().chain(by_level),
     )
+    .columns(quantities.len())
+    .share_axes_of_columns()
+    .draw(runs.gallery)
 }
 
-fn chart(title: String, label: &str, column: &str, mut curves: Vec<Series>) -> Chart {
-    if column == "front" {
-        let early = |(t, _): &(f64, f64)| *t <= 1.05 * time_scale();
-        let points = front_curve().into_iter().filter(early).collect();
-        curves.push(Series {
-            marker: Marker::Circle,
-            dash: Dash::Dashed,
-            ..Series::line(format!("inviscid ± {} m", uncertainty()), points, 7)
-        });
+/// The inviscid front beside the curves of the front.
+fn beside_front<'a>(panel: Panel<'a>, column: &str) -> Panel<'a> {
+    if column != "front" {
+        return panel;
     }
-    Chart::new(title, ["time (s)", label], curves)
+    let early = |(t, _): &(f64, f64)| *t <= 1.05 * time_scale();
+    let points = front_curve().into_iter().filter(early).collect();
+    panel.reference(format!("inviscid ± {} m", uncertainty()), points)
 }

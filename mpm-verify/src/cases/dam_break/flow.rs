@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::exact::dam_break::{COMPARED, energies, front, passage, time_scale};
-use crate::statistics::rms;
 
 /// The state behind the gate, just before it is removed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

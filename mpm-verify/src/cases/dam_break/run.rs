@@ -3,15 +3,9 @@
 use super::flow::{Flow, Start, State};
 use super::*;
 use crate::cases::observe::checkerboard;
-use crate::cases::parameters::require_quotient;
-use crate::exact::Exact;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::statistics::{fit_line, rms};
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::{Law, NewtonianFluid};
-use mpm_core::stage::{Gravity, LocalDamping, RigidNodes, smooth_rise};
-use mpm_core::{Error as Fault, Part};
+use mpm_core::explicit::Settings;
+use mpm_core::stage::{LocalDamping, RigidNodes, smooth_rise};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
 
@@ -61,11 +55,6 @@ impl Dam {
         if self.is_staged() { rows } else { 0 }
     }
 
-    /// Rows of the series after the removal of the gate.
-    fn free_rows(&self) -> usize {
-        (self.setup.duration / ROW).round() as usize
-    }
-
     /// The longest period (s) of the water behind the gate.
     fn period(&self) -> f64 {
         4.0 * DEPTH / self.law.wave_speed(self.water.density)
@@ -76,9 +65,6 @@ impl Dam {
     }
 
     /// The water behind the gate: exactly at rest, or without weight yet.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     fn behind_the_gate(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
         let rise = if self.is_staged() { RISE } else { 0.0 };
         let gate = gate_of(self.setup.basis(), self.setup.h);
@@ -91,9 +77,6 @@ impl Dam {
     }
 
     /// The same water without a gate.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     pub(super) fn released(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
         solver(self.setup.scheme, self.tank(0.0)?, self.settings()?)
     }
@@ -135,9 +118,7 @@ fn grid(h: f64) -> Result<Grid<2>, Fault> {
 
 /// Particles row by row from the floor up, in columns from the back wall.
 fn seed(spacing: f64) -> Vec<[f64; 2]> {
-    let count = |length: f64| (length / spacing).round() as usize;
-    let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
-    (0..count(LENGTH)).flat_map(|i| (0..count(DEPTH)).map(move |j| [coordinate(i), coordinate(j)])).collect()
+    by_columns([LENGTH, DEPTH].map(|length| (length / spacing).round() as usize), spacing).collect()
 }
 
 /// Positions that differ from `places` in their last bits, at random, by the `seed`; zero keeps them.
@@ -287,7 +268,7 @@ impl Problem<2> for Dam {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     fn begin(&self, seen: &Observed) -> Result<Box<dyn Simulation<2>>, Fault> {
@@ -319,7 +300,7 @@ impl Problem<2> for Dam {
     }
 
     fn progress(&self, seen: &Observed, _: &Phase<2>) -> f64 {
-        let rows = self.stage_rows() + self.free_rows();
+        let rows = self.stage_rows() + (self.setup.duration / ROW).round() as usize;
         (seen.held + seen.flow.rows.len()) as f64 / rows as f64
     }
 

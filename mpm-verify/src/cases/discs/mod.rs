@@ -5,11 +5,7 @@
 mod flight;
 mod run;
 
-use super::family::implicit;
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
-use crate::parameter::{ParameterSet, Parameters};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::{CENTRES, IN_CONTACT, RADIUS};
 
 use RuleName::{Midpoint, Newmark};
@@ -59,7 +55,7 @@ parameters! {
         delta: f64 = common::DELTA;
         tolerance: f64 = common::TOLERANCE;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 
@@ -97,45 +93,36 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = [("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h });
-    Case {
-        description: "Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
-                      implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
-                      the paper's Newmark rule gains it. Explicit steps with every transfer, head on, oblique, grazing, and past each other.",
-        references: vec![
-            "Conservation of mass, momentum and energy, and the symmetry of the scene.".to_owned(),
-            "Exact: free flight, until a function sees both discs.".to_owned(),
-        ],
-        limits: &[
-            "Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.",
-            "No exact solution of the collision: energy and momentum are judged, not the motion.",
-        ],
-        plan: plan(&levels),
-        levels: levels.to_vec(),
-        wanted: vec![
-            Wanted::new("flight", "velocity and volume of every particle before the impact", "free-flight")
-                .missed_by("touches-through-the-grid"),
-            Wanted::new("rebound", "relative velocity after the impact", "restitution").where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4),
-            headline(ENERGY_LOSS, "loss (%)", 100.0, 4),
-            headline(ENERGY_END, "end (%)", 100.0, 4),
-            headline(ENERGY_ERROR_ACCUMULATED, "accumulated (%)", 100.0, 4),
-            headline(LUMPING_LOSS, "lumped mass took (%)", 100.0, 4),
-            headline(MOMENTUM_ERROR, "momentum error (–)", 1.0, 14),
-            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum error (–)", 1.0, 6),
-            headline(RESTITUTION, "parting over meeting speed (–)", 1.0, 3),
-            headline(DEFLECTION, "velocity changed by (–)", 1.0, 3),
-            headline(FREE_UNTIL, "free until (s)", 1.0, 1),
-        ],
-        watched: &["energy_change", "distance"],
-        sketch: sketch(),
-        cost: Box::new(cost),
-        pictures,
-        tables: tables(),
-        breaks_down: |r| match r.scheme() {
+    Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL)
+        .planned(plan())
+        .described("Two elastic discs meet in the middle of a square, touch through the grid and fly apart: the case by which the \
+            implicit paper shows its dynamics. The midpoint rule keeps energy at a hundred times the explicit step; \
+            the paper's Newmark rule gains it. Explicit steps with every transfer, head on, oblique, grazing, and past each other.")
+        .reference("Conservation of mass, momentum and energy, and the symmetry of the scene.")
+        .reference("Exact: free flight, until a function sees both discs.")
+        .limit("Bodies touch through the grid, cells before their rims do: they stick, and part when their functions do.")
+        .limit("No exact solution of the collision: energy and momentum are judged, not the motion.")
+        .wanted("flight", "velocity and volume of every particle before the impact", "free-flight")
+        .missed_by("touches-through-the-grid")
+        .wanted("rebound", "relative velocity after the impact", "restitution")
+        .where_referenced()
+        .checks(checks())
+        .headline(ENERGY_GAIN, "energy gain (%)", 100.0, 4)
+        .headline(ENERGY_LOSS, "loss (%)", 100.0, 4)
+        .headline(ENERGY_END, "end (%)", 100.0, 4)
+        .headline(ENERGY_ERROR_ACCUMULATED, "accumulated (%)", 100.0, 4)
+        .headline(LUMPING_LOSS, "lumped mass took (%)", 100.0, 4)
+        .headline(MOMENTUM_ERROR, "momentum error (–)", 1.0, 14)
+        .headline(ANGULAR_MOMENTUM_ERROR, "angular momentum error (–)", 1.0, 6)
+        .headline(RESTITUTION, "parting over meeting speed (–)", 1.0, 3)
+        .headline(DEFLECTION, "velocity changed by (–)", 1.0, 3)
+        .headline(FREE_UNTIL, "free until (s)", 1.0, 1)
+        .watched(&["energy_change", "distance"])
+        .sketch(sketch())
+        .cost(cost)
+        .pictures(|gallery| energies(gallery).and_then(|()| contact(gallery)))
+        .tables(tables())
+        .breaks_down(|r| match r.scheme() {
             Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => {
                 Some("a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead")
             }
@@ -143,9 +130,7 @@ pub(super) fn case() -> Case {
                 Some("a consistent mass is singular where a function sees few particles")
             }
             _ => None,
-        },
-        ..Case::of::<2, run::Collision>("discs", "Two discs that collide", ALL)
-    }
+        })
 }
 
 fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
@@ -160,7 +145,7 @@ fn cost(spec: &RunSpec) -> f64 {
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let plain = |basis, transfer| Scheme::explicit(basis, none, transfer);
     let explicit = [Gimp, Bspline2].map(|b| Scheme::flip(b, none));
@@ -176,7 +161,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let slow = |rules: &[RuleName]| implicit(rules, &[Gimp, Linear, Bspline2], &[none]);
     let (both, midpoint) = (slow(&[Midpoint, Newmark]), slow(&[Midpoint]));
     // Offsets: oblique 0.1 m; grazing 0.4 m, where rims would just touch; missing 0.65 m, beyond the reach of all functions.
-    Plan::of(levels)
+    Plan::of([("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h }))
         .runs(Pr, "h0.05", &explicit, "")
         .runs(Quick, "h0.05", &both[..1], "step_factor=100")
         .runs(Pr, "h0.05", &both, "step_factor=100")
@@ -196,30 +181,23 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.1", "flip=0 offset=0.1"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.4", "flip=0 offset=0.4"])
-        .done()
 }
 
 fn sketch() -> Sketch {
     let circle = |[x, y]: [f64; 2]| {
-        let at = |k: u32| {
-            let angle = f64::from(k) / 48.0 * std::f64::consts::TAU;
+        (0..48).map(move |k| {
+            let angle = f64::from(k) / 48.0 * TAU;
             [x + RADIUS * angle.cos(), y + RADIUS * angle.sin()]
-        };
-        Shape::Body((0..48).map(at).collect())
+        })
     };
-    let arrow = |[x, y]: [f64; 2], s: f64| Shape::Load([x, y], [x + s, y + s]);
     let [a, b] = CENTRES;
-    Sketch {
-        shapes: vec![
-            circle(a),
-            circle(b),
-            arrow(a, 0.12),
-            arrow(b, -0.12),
-            Shape::note([0.62, 0.2], "0.005 m/s"),
-            Shape::length([0.0, -0.08], [2.0 * RADIUS, -0.08], "0.4 m"),
-        ],
-        description: "Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.",
-    }
+    Sketch::of("Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.")
+        .body(circle(a))
+        .body(circle(b))
+        .load(a, a.map(|x| x + 0.12))
+        .load(b, b.map(|x| x - 0.12))
+        .note([0.62, 0.2], "0.005 m/s")
+        .length([0.0, -0.08], [2.0 * RADIUS, -0.08], "0.4 m")
 }
 
 impl Run<'_, Discs> {
@@ -339,13 +317,6 @@ fn tables() -> Vec<ResultTable> {
         let shows = move |r: &Record| at(offset)(r) && r.changes_none_but(&["step_factor", "offset"]);
         ResultTable::new(name, shows, &[SCHEME], columns)
     };
-    let balance = [
-        Column::metric("energy at the end", ENERGY_END, percent(3)),
-        Column::metric("lumped mass took", LUMPING_LOSS, percent(3)),
-        Column::metric("accumulated energy off by", ENERGY_ERROR_ACCUMULATED, percent(3)),
-        Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
-        Column::metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
-    ];
     let long = |r: &Record| {
         number(r, |d| d.step_factor.value()) == 100.0 && r.changes_none_but(&["step_factor", "offset", "lumped"])
     };
@@ -355,7 +326,6 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("speed", RESTITUTION, fixed(3)).of(at(offset)),
         ]
     });
-    let turning = Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1));
     let passing = [0.4, 0.5, 0.65].into_iter().flat_map(|offset| {
         [
             Column::metric(format!("free until, {offset} m"), FREE_UNTIL, fixed(1)).of(at(offset)),
@@ -365,25 +335,21 @@ fn tables() -> Vec<ResultTable> {
     vec![
         over_steps("discs-head-on", 0.0),
         over_steps("discs-offset", 0.1),
-        ResultTable::new("discs-balance", long, &[SCHEME, OFFSET, LUMPED], balance),
-        ResultTable::new(
-            "discs-explicit",
-            move |r| is_explicit(r) && r.level == "h0.05",
-            &[SCHEME, SHARE],
-            explicit.chain([turning]),
-        ),
-        ResultTable::new(
-            "discs-passing",
-            move |r| is_explicit(r) && number(r, |d| d.offset) >= 0.4,
-            &[SCHEME, SHARE, LEVEL],
-            passing,
-        ),
+        ResultTable::of("discs-balance", long)
+            .by(&[SCHEME, OFFSET, LUMPED])
+            .metric("energy at the end", ENERGY_END, percent(3))
+            .metric("lumped mass took", LUMPING_LOSS, percent(3))
+            .metric("accumulated energy off by", ENERGY_ERROR_ACCUMULATED, percent(3))
+            .metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT)
+            .metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
+        ResultTable::of("discs-explicit", move |r| is_explicit(r) && r.level == "h0.05")
+            .by(&[SCHEME, SHARE])
+            .columns(explicit)
+            .column(Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1))),
+        ResultTable::of("discs-passing", move |r| is_explicit(r) && number(r, |d| d.offset) >= 0.4)
+            .by(&[SCHEME, SHARE, LEVEL])
+            .columns(passing),
     ]
-}
-
-fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
-    energies(gallery)?;
-    contact(gallery)
 }
 
 /// Energy over time: the paper's Figure 6, a panel a time step.

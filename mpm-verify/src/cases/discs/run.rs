@@ -2,8 +2,6 @@
 
 use super::flight::until_met;
 use super::*;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::material::NeoHookean;
 
 /// Radius and centres (m) of the discs.
 pub(super) const RADIUS: f64 = 0.2;
@@ -32,11 +30,6 @@ const LEAST: f64 = 1e-12;
 const LEAST_ASYMMETRY: f64 = 1e-9;
 
 impl Setup<Discs> {
-    /// Distance of particles (m).
-    fn spacing(&self) -> f64 {
-        self.h / self.ppc_per_direction as f64
-    }
-
     /// Mass (kg/m) of the particles by their shares of a cell.
     pub(super) fn mass_of(&self, particles: u64, ppc: u32) -> f64 {
         particles as f64 * (1000.0 * self.h.powi(2) / f64::from(ppc))
@@ -63,14 +56,11 @@ impl Setup<Discs> {
     /// Positions (m) of the particles of one disc after the other; those of the second are mirror images of those of the first
     /// about the centre.
     pub(super) fn seed(&self) -> Vec<[f64; 2]> {
-        let spacing = self.spacing();
+        let spacing = self.pitch();
         let along = (2.0 * RADIUS / spacing).round() as usize;
-        let place = |k: usize| (k as f64 + 0.5) * spacing;
-        let [[x0, y0], _] = CENTRES;
-        let first = (0..along * along).map(|k| [place(k / along), place(k % along)]);
-        let first: Vec<[f64; 2]> = first.filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS).collect();
-        let aside = self.aside();
-        let first: Vec<[f64; 2]> = first.iter().map(|[x, y]| [x + aside, y - aside]).collect();
+        let ([[x0, y0], _], aside) = (CENTRES, self.aside());
+        let first = by_columns([along; 2], spacing).filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS);
+        let first: Vec<[f64; 2]> = first.map(|[x, y]| [x + aside, y - aside]).collect();
         let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y];
         let second: Vec<[f64; 2]> = first.iter().map(mirrored).collect();
 
@@ -230,7 +220,7 @@ impl Problem<2> for Collision {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.setup.timing().0)
+        self.setup.regular(2, self.setup.timing().0)
     }
 
     fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -239,23 +229,14 @@ impl Problem<2> for Collision {
         let room = (ROOM / h).round() + (beyond / h).ceil();
         let cells = (SIDE / h).round() + 2.0 * room;
         let grid = Grid::new(h, [Axis::open(-room * h, cells as usize); 2])?;
-        let spacing = self.setup.spacing();
-        let places = self.setup.start_at(self.setup.seed());
-        let half = places.len() / 2;
-        let mut particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let mut particles = self.setup.particles_at(self.setup.seed(), self.setup.pitch(), DENSITY)?;
         let speed = self.setup.speed;
         for (k, velocity) in particles.velocity.iter_mut().enumerate() {
-            *velocity = if k < half { [speed; 2] } else { [-speed; 2] };
+            *velocity = if k < self.half { [speed; 2] } else { [-speed; 2] };
         }
         let law = NeoHookean::new(self.setup.young_modulus, self.setup.poisson_ratio)?;
         let scene = Scene::new(grid, Body::new(law, particles)?);
-        let (dt, _) = self.setup.timing();
-        if let Some(settings) = self.setup.implicit_settings(dt) {
-            return mpm_solvers::implicit(self.setup.scheme, scene, settings);
-        }
-        let settings = self.setup.settings(dt, 0.0)?;
-        let settings = settings.transfer(Flip::new(self.setup.flip)?);
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        self.setup.moving(scene, self.setup.timing().0, 0.0)
     }
 
     fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -4,9 +4,7 @@
 
 mod run;
 
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// Rounding of sums over many steps.
 const ROUNDING: f64 = 1e-9;
@@ -58,45 +56,39 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
-    Case {
-        description: "An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
-                      closes, friction is Coulomb's, over the barrier's stiffness and the step.",
-        references: vec!["Conservation of momentum and energy, Coulomb's law.".to_owned()],
-        limits: &["No exact solution of the bounce: what is kept and bounded is judged."],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![Wanted::new("friction", "impulse along the floor over that across it", "slides")],
-        checks: checks(),
-        headlines: vec![
-            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
-            headline(ENERGY_END, "at the end (–)", 1.0, 4),
-            headline(LEAST_GAP, "least gap (–)", 1.0, 3),
-            headline(FRICTION_RATIO, "friction over μN (–)", 1.0, 3),
-            headline(RESTITUTION, "restitution (–)", 1.0, 3),
-            headline(SPIN, "spin (–)", 1.0, 3),
-        ],
-        watched: &["kinetic_energy", "force_across"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
-        tables: tables(),
-        breaks_down: |r| {
+    Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
+        .planned(plan())
+        .described("An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
+            closes, friction is Coulomb's, over the barrier's stiffness and the step.")
+        .reference("Conservation of momentum and energy, Coulomb's law.")
+        .limit("No exact solution of the bounce: what is kept and bounded is judged.")
+        .wanted("friction", "impulse along the floor over that across it", "slides")
+        .checks(checks())
+        .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
+        .headline(ENERGY_END, "at the end (–)", 1.0, 4)
+        .headline(LEAST_GAP, "least gap (–)", 1.0, 3)
+        .headline(FRICTION_RATIO, "friction over μN (–)", 1.0, 3)
+        .headline(RESTITUTION, "restitution (–)", 1.0, 3)
+        .headline(SPIN, "spin (–)", 1.0, 3)
+        .watched(&["kinetic_energy", "force_across"])
+        .sketch(sketch())
+        .cost(|spec| 1e-3 * spec.level.h.powi(-2))
+        .tables(tables())
+        .breaks_down(|r| {
             let soft = Setup::<Drop>::number_of(r, |b| b.stiffness) < 0.1;
             let explicit = r.scheme().rule().is_none();
             (soft && explicit)
                 .then_some("a barrier that a step passes: the gap at its end is closed, and the program says so")
-        },
-        ..Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
-    }
+        })
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     use TransferName::{Apic, Xpic2};
     let none = RemedyName::None;
     let mut explicit = pairs(&[Gimp, Bspline2, Bspline3], &[none, FbarConsistent]);
     explicit.extend([Apic, Xpic2].map(|t| Scheme::explicit(Gimp, none, t)));
     let slow = implicit(&[RuleName::Midpoint, RuleName::Newmark], &[Gimp, Bspline2], &[none]);
-    let mut plan = Plan::of(levels)
+    let mut plan = Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0)]))
         .runs(Quick, "n8", &explicit[..1], "")
         .each(Pr, "n8", &explicit, ["", "slant=5", "stiffness=10"])
         .each(Pr, "n8", &slow, ["step_factor=10", "step_factor=10 stiffness=100"])
@@ -104,20 +96,16 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     for set in ["", "slant=5", "stiffness=10"] {
         plan = plan.runs(Nightly, "n16", &explicit, set).runs(Nightly, "n8", &slow, set);
     }
-    plan.runs(Nightly, "n8", &slow, "step_factor=30").runs(Nightly, "n16", &slow, "step_factor=10").done()
+    plan.runs(Nightly, "n8", &slow, "step_factor=30").runs(Nightly, "n16", &slow, "step_factor=10")
 }
 
 fn sketch() -> Sketch {
     let (side, up) = (0.5, 0.25);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, up], [side, up], [side, up + side], [0.0, up + side]]),
-            Shape::Load([0.25, up + 0.3], [0.45, up + 0.1]),
-            Shape::Held([-0.2, 0.0], [1.0, 0.0]),
-            Shape::length([0.0, up + side + 0.08], [side, up + side + 0.08], "0.5 m"),
-        ],
-        description: "A block of 0.5 m that moves towards a floor at an angle.",
-    }
+    Sketch::of("A block of 0.5 m that moves towards a floor at an angle.")
+        .body([[0.0, up], [side, up], [side, up + side], [0.0, up + side]])
+        .load([0.25, up + 0.3], [0.45, up + 0.1])
+        .held([-0.2, 0.0], [1.0, 0.0])
+        .length([0.0, up + side + 0.08], [side, up + side + 0.08], "0.5 m")
 }
 
 fn checks() -> Vec<Check> {

@@ -1,10 +1,6 @@
 //! Scene of the block, and its observations step by step.
 
 use super::*;
-use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::NeoHookean;
-use mpm_core::{Error as Fault, Law, Part};
 
 /// Side of the block, and its gap over the reach of the barrier at the start (m).
 const SIDE: f64 = 0.5;
@@ -52,23 +48,19 @@ pub(super) struct Falling {
 }
 
 impl Falling {
-    fn spacing(&self) -> f64 {
-        self.setup.h / self.setup.ppc_per_direction as f64
-    }
-
     fn reach(&self) -> f64 {
         REACH * self.setup.h
     }
 
     /// Height of the floor (m): the lowest particles stand half a spacing above zero.
     fn floor(&self) -> f64 {
-        0.5 * self.spacing() - self.reach() - CLEAR
+        0.5 * self.setup.pitch() - self.reach() - CLEAR
     }
 
     /// The floor's barrier and friction.
     fn contact(&self) -> Result<RigidContact<2>, Fault> {
         let stress = DENSITY * self.law.wave_speed(DENSITY) * self.velocity[1].abs();
-        let force = self.setup.stiffness * stress * self.spacing();
+        let force = self.setup.stiffness * stress * self.setup.pitch();
         let barrier = Barrier::carrying(force, self.reach())?;
         let face = RigidFace::half_space(1, End::Lo, self.floor())?;
         let stick = barrier.stiffness(0.5 * self.reach());
@@ -148,16 +140,13 @@ impl Problem<2> for Falling {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(2);
-        Discretisation { wall: "none".to_owned(), ..self.setup.discretisation(2, ppc, self.dt) }
+        Discretisation { wall: "none".to_owned(), ..self.setup.regular(2, self.dt) }
     }
 
     fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, Fault> {
-        let (h, spacing) = (self.setup.h, self.spacing());
+        let (h, spacing) = (self.setup.h, self.setup.pitch());
         let count = (SIDE / spacing).round() as usize;
-        let place = |k: usize| [k % count, k / count].map(|k| (k as f64 + 0.5) * spacing);
-        let places = self.setup.start_at((0..count * count).map(place));
-        let mut particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let mut particles = self.setup.particles_at(by_rows([count; 2], spacing), spacing, DENSITY)?;
         particles.velocity.fill(self.velocity);
         let way = self.velocity.map(|v| (v * self.duration).abs());
         let cells = |length: f64| (length / h + ROOM).ceil() as usize;
@@ -168,11 +157,7 @@ impl Problem<2> for Falling {
         let grid = Grid::new(h, [axis(0), axis(1)])?;
         let body = Body::new(self.law, particles)?;
         let scene = Scene::new(grid, body).contact(self.contact()?);
-        if let Some(settings) = self.setup.implicit_settings(self.dt) {
-            return mpm_solvers::implicit(self.setup.scheme, scene, settings);
-        }
-        let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        self.setup.moving(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, Fault> {

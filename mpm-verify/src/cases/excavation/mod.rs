@@ -5,11 +5,8 @@
 mod run;
 mod scene;
 
-use super::family::implicit;
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
+use crate::cases::prelude::*;
 use crate::parameter::number;
-use crate::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
@@ -30,14 +27,8 @@ const SAME: f64 = 0.01;
 choices! {
     /// Contact with the base.
     enum Base { Rough = "rough", Frictional = "friction" }
-}
-
-choices! {
     /// Application of gravity.
     enum Raising { Ramp = "ramp", Step = "step" }
-}
-
-choices! {
     /// Constitutive law.
     enum LawName { Hencky = "hencky-j2", Jaumann = "jaumann-j2" }
 }
@@ -69,7 +60,7 @@ parameters! {
         alpha: f64 = common::ALPHA;
         delta: f64 = common::DELTA;
         tolerance: f64 = common::TOLERANCE;
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
     }
 }
@@ -125,45 +116,46 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
-                      of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
-                      strength it can't: what fails is progressive, and depends on the cells.",
-        references: vec![
-            "Limit analysis (docs/exact.md): arcs, γH/c = 6.078 whole and 5.537 cut, at most 1.2 % above finite-element bounds; a foot that slides".to_owned(),
-            "Equilibrium, momentum and energy.".to_owned(),
-        ],
-        limits: &[
-            "Softening without a length: shear bands are as wide as the cells allow, and the run-out differs from level to level.",
-            "The paper gives neither the friction of its base nor the length of its crest.",
-            "Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.",
-        ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![
-            Wanted::new("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3),
-            headline(FACTOR_CUT, "cut (–)", 1.0, 3),
-            headline(GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3),
-            headline(STANDS_UNCUT, "stands whole", 1.0, 0),
-            headline(STANDS_CUT, "cut", 1.0, 0),
-            headline(RUNOUT_END, "run-out (m)", 1.0, 3),
-            headline(CREST_DROP, "crest sinks (m)", 1.0, 3),
-            headline(BAND_WIDTH, "band (m)", 1.0, 3),
-            headline(KINETIC_END, "E_kin at the end (%)", 100.0, 2),
-            headline(FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1),
-            headline(BALANCE_ERROR, "energy off by (%)", 100.0, 2),
-        ],
-        watched: &["moved", "front"],
-        sketch: sketch(),
-        cost: Box::new(cost),
-        pictures,
-        tables: vec![equilibria(), collapses(), balances()],
-        ..Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL)
-    }
+    Case::of::<2, Ground>("excavation", "Slope whose toe is cut away", ALL)
+        .planned(plan())
+        .described("A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
+            of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
+            strength it can't: what fails is progressive, and depends on the cells.")
+        .reference("Limit analysis (docs/exact.md): arcs, γH/c = 6.078 whole and 5.537 cut, at most 1.2 % above finite-element bounds; a foot that slides")
+        .reference("Equilibrium, momentum and energy.")
+        .limit("Softening without a length: shear bands are as wide as the cells allow, and the run-out differs from level to level.")
+        .limit("The paper gives neither the friction of its base nor the length of its crest.")
+        .limit("Local damping, by which the paper comes to rest, is refused in implicit steps; static steps take its place.")
+        .wanted("stability", "whether the slope stands, whole and cut", "stands-below-the-limit falls-above-the-limit")
+        .checks(checks())
+        .headline(FACTOR_UNCUT, "factor, whole (–)", 1.0, 3)
+        .headline(FACTOR_CUT, "cut (–)", 1.0, 3)
+        .headline(GRAVITY_CARRIED, "gravity carried (–)", 1.0, 3)
+        .headline(STANDS_UNCUT, "stands whole", 1.0, 0)
+        .headline(STANDS_CUT, "cut", 1.0, 0)
+        .headline(RUNOUT_END, "run-out (m)", 1.0, 3)
+        .headline(CREST_DROP, "crest sinks (m)", 1.0, 3)
+        .headline(BAND_WIDTH, "band (m)", 1.0, 3)
+        .headline(KINETIC_END, "E_kin at the end (%)", 100.0, 2)
+        .headline(FORCE_RATIO_UNCUT, "(37) before the cut (10⁻¹²)", 1e12, 1)
+        .headline(BALANCE_ERROR, "energy off by (%)", 100.0, 2)
+        .watched(&["moved", "front"])
+        .sketch(Sketch::of(
+            "A slope of clay one metre high with a face at 45° and a crest of 1.5 m, up to rollers that let it \
+             move up and down. The wedge of the lowest 0.2 m at its toe is taken away.",
+        )
+        .body([[0.0, 0.0], [2.3, 0.0], [2.3, 0.2], [1.5, 1.0], [0.0, 1.0]])
+        .body([[2.3, 0.0], [2.5, 0.0], [2.3, 0.2]])
+        .held([3.5, 0.0], [0.0, 0.0])
+        .held([0.0, 0.0], [0.0, 1.0])
+        .length([0.0, 1.12], [1.5, 1.12], "1.5 m")
+        .length([1.5, 1.12], [2.5, 1.12], "1 m")
+        .length([-0.12, 0.0], [-0.12, 1.0], "1 m")
+        .note([0.9, 0.5], "clay")
+        .note([2.85, 0.2], "taken away"))
+        .cost(cost)
+        .pictures(pictures)
+        .tables(vec![equilibria(), collapses(), balances()])
 }
 
 /// Cost of the steps and of a factorisation.
@@ -175,25 +167,7 @@ fn cost(spec: &RunSpec) -> f64 {
     steps * 2.0 * (0.1 / spec.level.h).powi(3)
 }
 
-fn sketch() -> Sketch {
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [2.3, 0.0], [2.3, 0.2], [1.5, 1.0], [0.0, 1.0]]),
-            Shape::Body(vec![[2.3, 0.0], [2.5, 0.0], [2.3, 0.2]]),
-            Shape::Held([3.5, 0.0], [0.0, 0.0]),
-            Shape::Held([0.0, 0.0], [0.0, 1.0]),
-            Shape::length([0.0, 1.12], [1.5, 1.12], "1.5 m"),
-            Shape::length([1.5, 1.12], [2.5, 1.12], "1 m"),
-            Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-            Shape::note([0.9, 0.5], "clay"),
-            Shape::note([2.85, 0.2], "taken away"),
-        ],
-        description: "A slope of clay one metre high with a face at 45° and a crest of 1.5 m, up to rollers that let it \
-                      move up and down. The wedge of the lowest 0.2 m at its toe is taken away.",
-    }
-}
-
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     const SLIPPERY: &str = "base=friction friction=0.05";
     const SLIPPERY_PERFECT: &str = "base=friction friction=0.05 residual=5e3";
     /// Ground that does not yield under its weight alone.
@@ -205,7 +179,7 @@ fn plan() -> Vec<Family> {
     let means = &resting[..1];
     let two = "h0.1 h0.05";
     let three = "h0.1 h0.05 h0.025";
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Pr, "h0.1", midpoint, "")
         .runs(Quick, "h0.1", means, "")
         .runs(Pr, "h0.1", &moving[1..], "duration=0.5")
@@ -229,7 +203,6 @@ fn plan() -> Vec<Family> {
         .each(Nightly, "h0.1", midpoint, ["ghost=0.001", "cfl=1"])
         .runs(Long, "h0.025", &moving, "")
         .each(Nightly, two, means, [0.1, 0.2, 0.3, 1.0].map(|f| format!("base=friction friction={f}")))
-        .done()
 }
 
 /// Factors of limit analysis, each with whether the slope stands.
@@ -404,7 +377,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         title,
         points: table.points("x", "y"),
         values: table.column("plastic_strain").to_vec(),
-        size: slope.spacing(),
+        size: slope.pitch(),
         outline: vec![(0.0, 0.0), (foot, 0.0), (foot, cut), (crest, HEIGHT), (0.0, HEIGHT)],
     };
     let figure = FieldFigure {

@@ -3,9 +3,8 @@
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
 use crate::cases::observe::{farthest, finds_equilibrium, places};
+use mpm_core::Reaction;
 use mpm_core::monitor::Convergence;
-use mpm_core::{Part, Reaction};
-use std::f64::consts::SQRT_2;
 
 /// A particle that moves by this share of the height has left with what collapses.
 const COLLAPSES: f64 = 0.1;
@@ -248,8 +247,7 @@ impl Problem<2> for Ground {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(2);
-        self.setup.discretisation(2, ppc, self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {

@@ -2,12 +2,10 @@
 
 use super::*;
 use crate::exact::slope::Slope;
-use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::implicit::{Settings, Stabilisation, TimeRule};
-use mpm_core::material::{HenckyJ2, HypoelasticJ2, JaumannUpdate, Law, Strength};
-use mpm_core::stage::Gravity;
-use mpm_solvers::{Solved, implicit};
-use std::f64::consts::{FRAC_PI_4, SQRT_2};
+use mpm_core::implicit::{Settings, TimeRule};
+use mpm_core::material::{HypoelasticJ2, JaumannUpdate};
+use mpm_solvers::implicit;
+use std::f64::consts::FRAC_PI_4;
 
 /// Height (m) of the slope, and its run, at 45°.
 pub(super) const HEIGHT: f64 = 1.0;
@@ -64,11 +62,6 @@ impl Setup<Excavation> {
 
     pub(super) fn softens(&self) -> bool {
         self.residual < self.peak
-    }
-
-    /// Distance of particles (m).
-    pub(super) fn spacing(&self) -> f64 {
-        self.h / self.ppc_per_direction as f64
     }
 
     /// Coordinate of the foot of the cut face (m).
@@ -146,10 +139,10 @@ impl Setup<Excavation> {
     /// Coulomb's friction beneath the particles, with a barrier that just touches the lowest ones.
     fn contact(&self) -> Result<RigidContact<2>, mpm_core::Error> {
         let reach = REACH * self.h;
-        let weight = self.unit_weight * HEIGHT * self.spacing();
+        let weight = self.unit_weight * HEIGHT * self.pitch();
         let gap = (1.0 - GIVES_WAY) * reach;
         let barrier = Barrier::carrying_at(weight, gap, reach)?;
-        let lowest = 0.5 * self.spacing();
+        let lowest = 0.5 * self.pitch();
         let face = RigidFace::half_space(1, End::Lo, lowest - 0.5 * (gap + reach))?;
         let friction = Friction::new(self.friction, barrier.stiffness(gap))?;
         Ok(RigidContact::new(face, barrier).with_friction(friction))
@@ -220,7 +213,7 @@ impl Ground {
         }
         setup.forbid(&foreign)?;
         let (dt, steps_in_row) = setup.timing()?;
-        let spacing = setup.spacing();
+        let spacing = setup.pitch();
         let [across, up, foot] =
             [setup.crest + HEIGHT, HEIGHT, setup.foot()].map(|length| (length / spacing).round() as usize);
         let rows = (0..across).flat_map(|i| (0..up).map(move |j| (i, j)));
@@ -243,7 +236,7 @@ impl Ground {
 
     fn particles_of(&self, stage: Stage) -> Result<Particles<2>, mpm_core::Error> {
         let count = if stage.is_whole() { self.places.len() } else { self.kept };
-        let (places, spacing) = (self.places[..count].to_vec(), self.setup.spacing());
+        let (places, spacing) = (self.places[..count].to_vec(), self.setup.pitch());
         let (density, half_size) = (self.setup.density(), [0.5 * spacing; 2]);
         let mut particles = Particles::new(places, spacing * spacing, density, half_size)?;
         for half in self.halves.iter().filter(|k| **k < count) {
@@ -271,14 +264,9 @@ impl Ground {
             let share = if rises { time } else { 1.0 };
             [0.0, -GRAVITATION * share]
         };
-        let wall = |axis, kind| Wall { axis, end: End::Lo, kind };
+        let scene = Scene::new(self.setup.grid()?, body).load(Gravity(Box::new(gravity))).constrain(roller(0, End::Lo));
         let scene =
-            Scene::new(self.setup.grid()?, body).load(Gravity(Box::new(gravity))).constrain(wall(0, WallKind::Roller));
-        let scene = if self.setup.slides() {
-            scene.contact(self.setup.contact()?)
-        } else {
-            scene.constrain(wall(1, WallKind::Fixed))
-        };
+            if self.setup.slides() { scene.contact(self.setup.contact()?) } else { scene.constrain(clamp(1, End::Lo)) };
         let settings = self.setup.stage_settings(stage)?;
         implicit(self.setup.scheme, scene, settings)
     }

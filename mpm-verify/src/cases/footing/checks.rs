@@ -2,7 +2,6 @@
 
 use super::curve::mechanism_extent;
 use super::*;
-use crate::accuracy::fit_order;
 
 /// Relative tolerance of the limit load against Prandtl's at h ≤ B/20, by the width that the footing acts with.
 const PRANDTL: f64 = 0.01;
@@ -124,19 +123,9 @@ impl Setup<Footing> {
         self.is_free_of_locking() && self.yields()
     }
 
-    /// Whether a limit load is demanded and can be compared, so that no other check states the reason for its lack.
-    fn reaches_limit(&self) -> bool {
-        self.has_limit() && self.no_limit().is_none()
-    }
-
     /// Whether standard MPM locks.
     fn locks(&self) -> bool {
         self.remedy() == RemedyName::None && !self.is_elastic() && self.shown_only().is_none()
-    }
-
-    /// The same where another check says why it is not judged.
-    fn locks_at_limit(&self) -> bool {
-        self.locks() && self.no_limit().or_else(|| self.unknown_width()).is_none()
     }
 
     /// Relative softness of an elastic footing against one of its width. Splines are exactly rigid up to a cell inside of its
@@ -248,10 +237,10 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .within(NC_B, |c| c.reference_limit(), |c| FEM * c.coarseness() * c.reference_limit())
             .because_of(|c| c.reference_curve().map_or(String::new(), |curve| curve.name)),
         Check::truth("curve", "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
-            .when(|c| c.reaches_limit())
+            .when(|c| c.has_limit() && c.no_limit().is_none())
             .own(load_curve),
         Check::known_limit("no-limit-load", "none: final growth of the load above 0.5 % per 10⁻³ of s/B")
-            .when(|c| c.locks_at_limit())
+            .when(|c| c.locks() && c.no_limit().or_else(|| c.unknown_width()).is_none())
             .above(PLATEAU_RISE, |_| FLAT.1)
             .because(LOCKS),
         Check::known_limit("rises-near-one-half", "fbar-rate, fbar-consistent at ν > 0.49: final growth of the load above 0.5 % per 10⁻³ of s/B")

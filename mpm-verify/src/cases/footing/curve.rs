@@ -2,7 +2,6 @@
 
 use super::reference::EXACT;
 use super::*;
-use crate::statistics::fit_line;
 
 /// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.
 const BESIDE: (f64, f64) = (0.75 * WIDTH, 1.25 * WIDTH);

@@ -3,7 +3,7 @@
 use super::reference::{limit_curve, limit_uncertainty};
 use super::*;
 use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
-use crate::draw::{FieldFigure, FieldPanel, signed};
+use crate::draw::signed;
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Finest first.

@@ -9,10 +9,7 @@ pub(super) mod foreign;
 mod reference;
 mod run;
 
-use super::family::{REMEDIES, implicit, levels, other_transfers, pairs, transfers};
-use super::parameters as common;
-use crate::parameter::Parameter;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::record::of_defaults;
 use RuleName::QuasiStatic;
 use reference::{EXACT, mean_stress_at, strength_ratio};
@@ -110,69 +107,43 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let cells = [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)];
-    let levels = levels(WIDTH, cells);
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
-    Case {
-        description: "A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
-                      (plane strain, ν = 0.49). Its bearing capacity is (2 + π) s_u (Prandtl). Standard MPM locks and finds \
-                      no limit load; the F̄ remedies do, the recursive one depends on the rate.",
-        references: reference::describe(),
-        limits: &[
-            "A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, with quadratic splines B.",
-            "The footing's nodes stay where they are: strokes are small against a cell.",
-            "The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.",
-            "At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("limit-load", "load on the footing at the end", "prandtl fem-plateau limit-load")
-                .missed_by("no-limit-load rises-near-one-half locked soft-by-diffusion"),
-            Wanted::new(
-                "pressure",
-                "mean stress at five points at the end",
-                "mean-stress smooth-pressure smooth-squares",
-            )
-            .missed_by("no-limit-load rises-near-one-half locked checkerboard soft-by-diffusion"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(NC_B, "N_c by B (–)", 1.0, 3),
-            headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3),
-            headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3),
-            headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2),
-            headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0),
-            headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2),
-            headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2),
-            headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-        ],
-        quantities: vec![error(PRANDTL_ERROR, "relative error of the contact pressure")],
-        sweeps: vec![Sweep {
-            parameter: PENETRATION_RATE,
-            label: "penetration rate (m/s)",
-            abscissa: |rate| rate,
-            logarithmic: true,
-        }],
-        watched: &["pressure_over_strength", "jacobian_max"],
-        field: Some(FieldView {
-            time: None,
-            value: "plastic_strain",
-            label: "plastic strain (-)",
-            range: (0.0, 0.004),
-            window: [(0.0, 2.0), (-1.5, 0.0)],
-        }),
-        sketch: sketch(),
-        cost: Box::new(cost),
-        own_runs,
-        pictures: figures::draw,
-        tables: tables(),
-        ..Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
-    }
+    Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
+        .planned(plan())
+        .described("A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
+            (plane strain, ν = 0.49). Its bearing capacity is (2 + π) s_u (Prandtl). Standard MPM locks and finds \
+            no limit load; the F̄ remedies do, the recursive one depends on the rate.")
+        .references(reference::describe())
+        .limit("A footing of held nodes acts as wide as up to the middle between its last node and the first free one: B + h, with quadratic splines B.")
+        .limit("The footing's nodes stay where they are: strokes are small against a cell.")
+        .limit("The inertia of the start shows below s/B = 0.0003; the elastic slope is measured in runs of great strength.")
+        .limit("At B/80 three checks fail: the load swings, the mechanism ends a cell early, a mean stress is off by 5 % (docs/footing.md).")
+        .wanted("limit-load", "load on the footing at the end", "prandtl fem-plateau limit-load")
+        .missed_by("no-limit-load rises-near-one-half locked soft-by-diffusion")
+        .wanted("pressure", "mean stress at five points at the end", "mean-stress smooth-pressure smooth-squares")
+        .missed_by("no-limit-load rises-near-one-half locked checkerboard soft-by-diffusion")
+        .checks(checks::checks())
+        .headline(NC_B, "N_c by B (–)", 1.0, 3)
+        .headline(NC_B_PLUS_H, "N_c by B + h (–)", 1.0, 3)
+        .headline(NC_EFFECTIVE, "N_c by effective width (–)", 1.0, 3)
+        .headline(PLATEAU_RISE, "rise (%/10⁻³)", 100.0, 2)
+        .headline(ELASTIC_SLOPE, "slope (–)", 1.0, 0)
+        .headline(FORCE_IMBALANCE, "imbalance (%)", 100.0, 2)
+        .headline(MECHANISM_WIDTH, "mechanism (B)", 1.0, 2)
+        .headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (10⁻⁶)", 1e6, 2)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .quantity(error(PRANDTL_ERROR, "relative error of the contact pressure"))
+        .sweep(Sweep::of(PENETRATION_RATE, "penetration rate (m/s)").logarithmic())
+        .watched(&["pressure_over_strength", "jacobian_max"])
+        .field(FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.004), [(0.0, 2.0), (-1.5, 0.0)]))
+        .sketch(sketch())
+        .cost(cost)
+        .own_runs(own_runs)
+        .pictures(figures::draw)
+        .tables(tables())
 }
 
 /// A strength beyond reach: the ground stays elastic.
@@ -190,7 +161,7 @@ fn own_runs(records: &[Record]) -> Vec<&Record> {
     }
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let both = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
     let three = both(&[none, FbarRecursive, FbarConsistent]);
@@ -202,7 +173,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let statics = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[none, FbarConsistent]);
     let small = &SMALL.join(" ");
     let dense = "ppc_per_direction=4";
-    Plan::of(levels)
+    Plan::of(levels(WIDTH, [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)]))
         .runs(Pr, "b10", &three, small)
         .runs(Pr, "b20", &pairs(&[Gimp], &[none, FbarConsistent]), small)
         .runs(Nightly, "b20", &two, small)
@@ -230,38 +201,27 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b20", &averaged, "contact=barrier")
         .runs(Nightly, "b10", &averaged, ELASTIC)
         .runs(Long, "b40 b80", &statics, "")
-        .done()
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.5,
-        RemedyName::FbarConsistent => 2.5,
-    };
+    let sweep = remedy_cost(spec, [1.0, 1.5, 1.5, 1.5, 2.5]);
     let dense = spec.set.iter().any(|s| s == "ppc_per_direction=4");
     let solver = if spec.scheme.rule().is_some() { 0.15 } else { 1.0 };
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
 }
 
 fn sketch() -> Sketch {
-    let extent = 6.0 * WIDTH;
-    let half = 0.5 * WIDTH;
-    let shapes = vec![
-        Shape::Body(vec![[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]]),
-        Shape::Body(vec![[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]]),
-        Shape::Held([extent, -extent], [0.0, -extent]),
-        Shape::Load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3]),
-        Shape::length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B"),
-        Shape::length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B"),
-        Shape::note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m"),
-        Shape::note([-0.6, -0.5 * extent], "symmetry"),
-        Shape::note([extent - 0.6, -0.5 * extent], "roller"),
-    ];
-    Sketch {
-        shapes,
-        description: "A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.",
-    }
+    let (extent, half) = (6.0 * WIDTH, 0.5 * WIDTH);
+    Sketch::of("A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.")
+        .body([[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]])
+        .body([[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]])
+        .held([extent, -extent], [0.0, -extent])
+        .load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3])
+        .length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B")
+        .length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B")
+        .note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m")
+        .note([-0.6, -0.5 * extent], "symmetry")
+        .note([extent - 0.6, -0.5 * extent], "roller")
 }
 
 const OF_WIDTH: Label = ("h", |r| r.level.replace('b', "B/"));
@@ -305,11 +265,8 @@ fn gap(r: &Record) -> f64 {
     }
 }
 
-fn is_main(r: &Record) -> bool {
-    r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20"
-}
-
 fn tables() -> Vec<ResultTable> {
+    let is_main = |r: &Record| r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20";
     vec![
         ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
         table_of_results(),
@@ -322,23 +279,18 @@ fn tables() -> Vec<ResultTable> {
 }
 
 fn table_of_results() -> ResultTable {
-    ResultTable::new(
-        "footing-results",
-        |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"),
-        &[SCHEME, OF_WIDTH, ("changed", changed)],
-        [
-            Column::metric("N_c by B", NC_B, fixed(3)),
-            Column::metric("by B + h", NC_B_PLUS_H, fixed(3)),
-            Column::value("by its own width", own, fixed(3)),
-            Column::value("from 2 + π", from_exact, percent(1)),
-            Column::metric("rise per 10⁻³", PLATEAU_RISE, percent(1)),
-            Column::metric("mechanism (B)", MECHANISM_WIDTH, fixed(2)),
-            Column::metric("heave", HEAVE, fixed(2)),
-            Column::metric("checkerboard", CHECKERBOARD_RATIO, fixed(2)),
-            Column::value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4)),
-            Column::cpu(),
-        ],
-    )
+    ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
+        .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
+        .metric("N_c by B", NC_B, fixed(3))
+        .metric("by B + h", NC_B_PLUS_H, fixed(3))
+        .value("by its own width", own, fixed(3))
+        .value("from 2 + π", from_exact, percent(1))
+        .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
+        .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
+        .metric("heave", HEAVE, fixed(2))
+        .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
+        .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
+        .cpu()
 }
 
 fn table_of_mean_stresses() -> ResultTable {
@@ -350,12 +302,9 @@ fn table_of_mean_stresses() -> ResultTable {
         let title = format!("({}, {}) B{elements}", point[0], -point[1]);
         Column::metric(title, metric, fixed(2))
     };
-    ResultTable::new(
-        "footing-mean-stress",
-        |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level),
-        &[PAIR, OF_WIDTH],
-        MEAN_STRESSES.iter().copied().map(column),
-    )
+    ResultTable::of("footing-mean-stress", |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level))
+        .by(&[PAIR, OF_WIDTH])
+        .columns(MEAN_STRESSES.iter().copied().map(column))
 }
 
 /// Half and twice the case's own rate beside it.
@@ -364,19 +313,15 @@ fn table_of_rates() -> ResultTable {
     let rate = |r: &Record| Setup::<Footing>::number_of(r, |c| c.penetration_rate);
     let loads = rates.map(|(name, rate)| (rate, format!("{name}·10⁻³ m/s")));
     let imbalances = rates.map(|(name, rate)| (rate, format!("imbalance of forces at {name}")));
-    let mut columns = Column::over(loads, rate, NC_B, fixed(3));
-    columns.extend(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)));
-    ResultTable::new(
-        "footing-rates",
-        |r| {
-            let compared = [FbarRecursive, FbarConsistent];
-            let own = r.is_default() || r.changes_only("penetration_rate");
-            let main = r.basis() != Bspline3 && compared.contains(&r.remedy());
-            own && main && is_flip(r) && r.level == "b10"
-        },
-        &[("scheme, B/10", SCHEME.1)],
-        columns,
-    )
+    ResultTable::of("footing-rates", |r| {
+        let compared = [FbarRecursive, FbarConsistent];
+        let own = r.is_default() || r.changes_only("penetration_rate");
+        let main = r.basis() != Bspline3 && compared.contains(&r.remedy());
+        own && main && is_flip(r) && r.level == "b10"
+    })
+    .by(&[("scheme, B/10", SCHEME.1)])
+    .columns(Column::over(loads, rate, NC_B, fixed(3)))
+    .columns(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)))
 }
 
 fn table_of_slopes() -> ResultTable {
@@ -389,35 +334,21 @@ fn table_of_slopes() -> ResultTable {
         let slope = |c: &Setup<Footing>| c.reference_slope().map_or(f64::NAN, |s| s / strength_ratio());
         Setup::number_of(r, slope)
     };
-    ResultTable::new(
-        "footing-slopes",
-        |r| r.set == [ELASTIC],
-        &[SCHEME, OF_WIDTH],
-        [
-            Column::value("slope d(q/s_u)/d(s/B)", found, fixed(0)),
-            Column::value("finite elements that act as wide", expected, fixed(0)),
-            Column::value("difference", move |r| found(r) / expected(r) - 1.0, percent(1)),
-        ],
-    )
+    ResultTable::of("footing-slopes", |r| r.set == [ELASTIC])
+        .by(&[SCHEME, OF_WIDTH])
+        .value("slope d(q/s_u)/d(s/B)", found, fixed(0))
+        .value("finite elements that act as wide", expected, fixed(0))
+        .value("difference", move |r| found(r) / expected(r) - 1.0, percent(1))
 }
 
 fn table_of_orders() -> ResultTable {
-    // Errors on splines with F̄ are too small to fall with an order.
-    let text = |runs: &[&Record], _: &[&Record]| {
-        let gimp = runs.iter().copied().filter(|r| r.basis() == Gimp);
-        let found = order(gimp, PRANDTL_ERROR.name);
-        found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
-    };
     let levels = [("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")];
-    let levels = Column::levels(levels, PRANDTL_ERROR, percent(1));
-    let order = Column::row("order (between levels)", text);
-    ResultTable::new(
-        "footing-orders",
-        |r| {
-            let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
-            main && is_flip(r) && r.is_default()
-        },
-        &[SCHEME],
-        levels.into_iter().chain([order]),
-    )
+    ResultTable::of("footing-orders", |r| {
+        let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
+        main && is_flip(r) && r.is_default()
+    })
+    .by(&[SCHEME])
+    .columns(Column::levels(levels, PRANDTL_ERROR, percent(1)))
+    // Errors on splines with F̄ are too small to fall with an order.
+    .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)"))
 }

@@ -4,14 +4,6 @@ use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::reference::EXACT;
 use super::*;
 use crate::cases::observe::{checkerboard, mean_stress, oscillation};
-use crate::probe::PointProbe;
-use crate::statistics::rms;
-use mpm_core::Part;
-use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::implicit::Stabilisation;
-use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::stage::{RigidNodes, smooth_stroke};
 
 /// Width B of the footing (m); its right half is simulated.
@@ -78,11 +70,6 @@ impl Setup<Footing> {
         self.undrained_strength / self.young_modulus
     }
 
-    /// Distance of particles (m).
-    fn spacing(&self) -> f64 {
-        self.h / self.ppc_per_direction as f64
-    }
-
     fn law(&self) -> Result<HenckyJ2, mpm_core::Error> {
         let strength = Strength::undrained(self.undrained_strength)?;
         HenckyJ2::new(self.young_modulus, self.poisson_ratio, strength)
@@ -134,7 +121,7 @@ impl Setup<Footing> {
 
     /// Metrics of the surface of particles that start at `references` (m) and move by `flow` (m).
     pub(super) fn of_surface(&self, references: &[[f64; 2]], flow: &[[f64; 2]]) -> Vec<(Metric, f64)> {
-        Surface::new(references, flow, self.spacing()).metrics(self.rough)
+        Surface::new(references, flow, self.pitch()).metrics(self.rough)
     }
 
     /// Rms of the mean normal stress (Pa) of particles that start at `references` (m), and its values over the strength at the
@@ -224,20 +211,6 @@ impl Pressing {
     }
 }
 
-/// Particles row by row from the surface down, in columns from the axis of symmetry.
-fn seed(across: usize, down: usize, per_direction: usize, spacing: f64) -> Vec<[f64; 2]> {
-    let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
-    (0..across * per_direction)
-        .flat_map(|i| (0..down * per_direction).map(move |j| [coordinate(i), -coordinate(j)]))
-        .collect()
-}
-
-/// The fixed base and rollers at the sides.
-fn walls() -> [Wall; 3] {
-    let wall = |axis, end, kind| Wall { axis, end, kind };
-    [wall(1, End::Lo, WallKind::Fixed), wall(0, End::Lo, WallKind::Roller), wall(0, End::Hi, WallKind::Roller)]
-}
-
 impl Problem<2> for Pressing {
     type Parameters = Footing;
     type Seen = Seen;
@@ -245,7 +218,7 @@ impl Problem<2> for Pressing {
     fn new(setup: Setup<Footing>) -> Result<Self, Error> {
         let pace = setup.pace()?;
         let barrier = if setup.presses_by_barrier() {
-            let spacing = setup.spacing();
+            let spacing = setup.pitch();
             let force = EXACT * setup.undrained_strength * spacing;
             let reach = REACH * setup.h;
             let barrier = Barrier::carrying_at(force, (1.0 - GIVES_WAY) * reach, reach)?;
@@ -257,8 +230,7 @@ impl Problem<2> for Pressing {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let per_cell = self.setup.ppc_per_direction.pow(2);
-        self.setup.discretisation(2, per_cell, self.pace.dt)
+        self.setup.regular(2, self.pace.dt)
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -267,14 +239,14 @@ impl Problem<2> for Pressing {
         let (across, down) = (cells(setup.domain_width), cells(setup.domain_depth));
         let upward = Axis::bounded(-(down as f64) * h, down + ROOM, (Side::Wall, Side::Open));
         let grid = Grid::new(h, [Axis::walls(0.0, across), upward])?;
-        let spacing = setup.spacing();
-        let particles = Particles::new(
-            setup.start_at(seed(across, down, setup.ppc_per_direction, spacing)),
-            spacing * spacing,
-            setup.density,
-            [0.5 * spacing; 2],
-        )?;
-        let ground = Scene::new(grid, Body::new(setup.law()?, particles)?).constrain_all(walls());
+        let spacing = setup.pitch();
+        let downward = by_columns([across, down].map(|cells| cells * setup.ppc_per_direction), spacing);
+        let particles = setup.particles_at(downward.map(|[x, y]| [x, -y]), spacing, setup.density)?;
+        let ground = Scene::new(grid, Body::new(setup.law()?, particles)?).constrain_all([
+            clamp(1, End::Lo),
+            roller(0, End::Lo),
+            roller(0, End::Hi),
+        ]);
         let scene = match self.barrier {
             None => ground.constrain(self.held_nodes()),
             Some((barrier, _)) => {
@@ -282,12 +254,13 @@ impl Problem<2> for Pressing {
                 ground.contact(contact)
             }
         };
-        if let Some(settings) = setup.implicit_settings(self.pace.dt) {
-            let settings = settings.stabilised(Stabilisation::Ghost(RIM));
-            return mpm_solvers::implicit(setup.scheme, scene, settings);
+        match setup.implicit_settings(self.pace.dt) {
+            Some(settings) => {
+                let settings = settings.stabilised(Stabilisation::Ghost(RIM));
+                mpm_solvers::implicit(setup.scheme, scene, settings)
+            }
+            None => setup.explicit(scene, self.pace.dt, setup.damping),
         }
-        let settings = setup.settings(self.pace.dt, setup.damping)?.transfer(Flip::new(setup.flip)?);
-        mpm_solvers::solver(setup.scheme, scene, settings)
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -53,7 +53,7 @@ impl Setup<Landslide> {
     /// Particles of the section; NaN where their number is not known: row j from the base holds columns i with
     /// i + j < columns + rows − 1.
     fn in_section(&self) -> f64 {
-        let (rows, columns) = (self.height / self.spacing(), self.crest / self.spacing());
+        let (rows, columns) = (self.height / self.pitch(), self.crest / self.pitch());
         let whole = |count: f64| (count - count.round()).abs() < 1e-6;
         match self.face_angle == 45.0 && whole(rows) && whole(columns) {
             true => rows * (columns + rows - 1.0) - 0.5 * rows * (rows - 1.0),
@@ -63,7 +63,7 @@ impl Setup<Landslide> {
 
     /// Mass of the ground over its width (kg/m).
     fn mass(&self) -> f64 {
-        self.density * self.in_section() * self.spacing() * self.spacing()
+        self.density * self.in_section() * self.pitch() * self.pitch()
     }
 
     /// Standard MPM with GIMP: every particle's volume is a constraint.

@@ -2,9 +2,7 @@
 
 use super::*;
 use crate::cases::pictures::{basis_title, is_shown, remedy_title, spacing};
-use crate::draw::{
-    FieldFigure, FieldPanel, SolidFigure, SolidPanel, animate_fields, animate_solids, draw_fields, draw_solids, signed,
-};
+use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids, signed};
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies without which there is nothing to compare.

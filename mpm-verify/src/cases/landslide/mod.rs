@@ -9,12 +9,8 @@ mod plane_strain;
 mod run;
 mod tables;
 
-use super::family::{more_particles, other_transfers, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
 use super::slope;
-use crate::case::Begin;
-use crate::parameter::{Parameter, ParameterSet};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::problem;
 use plane_strain::Beside;
 use run::Slide;
@@ -50,7 +46,7 @@ parameters! {
         duration: f64 = real("s", "5.5", 0.01, 60.0), "time after the reduction, or from where it begins";
         damping: f64 = common::DAMPING, "local damping after the reduction: with it the slope moves without inertia";
         cfl: f64 = slope::CFL;
-        wall: WallTreatment = slope::WALL;
+        wall: common::Wall = slope::WALL;
         ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
         width: f64 = real("m", "0", 0.0, 1000.0),
             "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";
@@ -111,25 +107,8 @@ metrics! { ALL:
         "difference of the outermost particle from that in plane strain at the end";
 }
 
-const LIMITS: &[&str] = &[
-    "Softening is local: shear bands are as thin as the cells allow, and what flows after the onset depends on their size.",
-    "The reduced slope stands at a factor of safety of one: which scheme and level tips is part of the answer.",
-    "The clay is undrained; nothing drains, and nothing cracks. Its averaged volume is kept; that of single particles in the flow is not (J).",
-];
-
-fn references() -> Vec<String> {
-    vec![
-        "Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up".to_owned(),
-        "Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction".to_owned(),
-    ]
-}
-
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {
-    let sweep = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => 1.2,
-        RemedyName::FbarConsistent => 1.7,
-    };
+    let sweep = remedy_cost(spec, [1.0, 1.2, 1.2, 1.2, 1.7]);
     let short = spec.set.iter().any(|set| set.starts_with("duration="));
     let across = if spec.level.name.starts_with("slice") { 0.3 } else { 1.0 };
     across * sweep / spec.level.h.powi(dimension + 1) / if short { 3.0 } else { 1.0 }
@@ -142,46 +121,38 @@ fn case_of(
     parameters: Vec<Parameter>,
     begin: Begin,
 ) -> Case {
-    Case {
-        description,
-        references: references(),
-        limits: LIMITS,
-        wanted: vec![
-            Wanted::new("geostatic-stress", "vertical stress far from the face after the gravity stage", "overburden")
-                .missed_by("locked-stress"),
-            Wanted::new("stability", "whether the slope fails", "stands fails").missed_by("locked").where_referenced(),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2),
-            headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2),
-            headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2),
-            headline(SETTLEMENT_END, "settlement (m)", 1.0, 2),
-            headline(FAILED_SHARE_END, "failed (%)", 100.0, 1),
-            headline(FAILURE_TIME, "fails at (s)", 1.0, 2),
-            headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2),
-            headline(SHEAR_BANDS_END, "shear bands", 1.0, 0),
-            headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4),
-            headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2),
-            headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4),
-        ],
-        quantities: vec![value(RUNOUT_2_5S, "run-out at 2.5 s (m)")],
-        sweeps: vec![
-            Sweep {
-                parameter: REDUCTION,
-                label: "reduction of the peak strength (–)",
-                abscissa: |reduction| reduction,
-                logarithmic: false,
-            },
-            Sweep { parameter: slope::CFL, label: "CFL number (–)", abscissa: |cfl| cfl, logarithmic: true },
-        ],
-        watched: &["toe", "settlement", "kinetic_energy", "failed_share"],
-        sketch: slope::sketch(size),
-        cost: Box::new(move |spec| cost(spec, dimension)),
-        pictures: figures::draw,
-        breaks_down: checks::breaks_down,
-        ..Case::begun_by(name, title, ALL, parameters, begin)
-    }
+    Case::begun_by(name, title, ALL, parameters, begin)
+        .described(description)
+        .reference("Zhao, Jiang & Choo (2023), section 4.4, Figures 14 to 16: in kind; the paper gives no numbers but those of the set-up")
+        .reference("Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base, so the slope's factor of safety is 1.65 before and 1.00 after the reduction")
+        .limit("Softening is local: shear bands are as thin as the cells allow, and what flows after the onset depends on their size.")
+        .limit("The reduced slope stands at a factor of safety of one: which scheme and level tips is part of the answer.")
+        .limit("The clay is undrained; nothing drains, and nothing cracks. Its averaged volume is kept; that of single particles in the flow is not (J).")
+        .wanted("geostatic-stress", "vertical stress far from the face after the gravity stage", "overburden")
+        .missed_by("locked-stress")
+        .wanted("stability", "whether the slope fails", "stands fails")
+        .missed_by("locked")
+        .where_referenced()
+        .checks(checks::checks())
+        .headline(RUNOUT_2_5S, "run-out at 2.5 s (m)", 1.0, 2)
+        .headline(RUNOUT_END, "run-out at the end (m)", 1.0, 2)
+        .headline(BULK_RUNOUT_END, "of the bulk (m)", 1.0, 2)
+        .headline(SETTLEMENT_END, "settlement (m)", 1.0, 2)
+        .headline(FAILED_SHARE_END, "failed (%)", 100.0, 1)
+        .headline(FAILURE_TIME, "fails at (s)", 1.0, 2)
+        .headline(RETROGRESSION_END, "retrogression (m)", 1.0, 2)
+        .headline(SHEAR_BANDS_END, "shear bands", 1.0, 0)
+        .headline(CHECKERBOARD_AT_REST, "σ_m − Πσ_m at rest (γH)", 1.0, 4)
+        .headline(UNACCOUNTED_ENERGY, "unaccounted energy (%)", 100.0, 2)
+        .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4)
+        .quantity(value(RUNOUT_2_5S, "run-out at 2.5 s (m)"))
+        .sweep(Sweep::of(REDUCTION, "reduction of the peak strength (–)"))
+        .sweep(Sweep::of(slope::CFL, "CFL number (–)").logarithmic())
+        .watched(&["toe", "settlement", "kinetic_energy", "failed_share"])
+        .sketch(slope::sketch(size))
+        .cost(move |spec| cost(spec, dimension))
+        .pictures(figures::draw)
+        .breaks_down(checks::breaks_down)
 }
 
 /// The landslide in plane strain.
@@ -196,19 +167,11 @@ pub(super) fn plane_case() -> Case {
     let in_plane = |p: &Parameter| p.name != "width";
     let parameters = Landslide::list().into_iter().filter(in_plane).collect();
     let begin = Box::new(problem::begin::<2, Slide<2>>);
-    Case {
-        levels: LEVELS_2D.to_vec(),
-        plan: plan_2d(),
-        field: Some(FieldView {
-            time: Some(1.0),
-            value: "plastic_strain",
-            label: "plastic strain after 1 s (-)",
-            range: (0.0, 0.004),
-            window: [(0.0, 16.0), (0.0, 5.0)],
-        }),
-        tables: tables::in_plane(),
-        ..case_of(TEXTS, 2, parameters, begin)
-    }
+    let strain = ["plastic_strain", "plastic strain after 1 s (-)"];
+    case_of(TEXTS, 2, parameters, begin)
+        .planned(plan_2d())
+        .field(FieldView::at(1.0, strain, (0.0, 0.004), [(0.0, 16.0), (0.0, 5.0)]))
+        .tables(tables::in_plane())
 }
 
 /// The landslide in three dimensions.
@@ -221,18 +184,13 @@ pub(super) fn case() -> Case {
         "5 m, 5 m wide",
     ];
     let begin: Begin = Box::new(|spec, values| Ok(Box::new(Beside::new(spec, values)?)));
-    Case {
-        levels: LEVELS_3D.to_vec(),
-        plan: plan_3d(),
-        tables: vec![tables::in_space()],
-        ..case_of(TEXTS, 3, Landslide::list(), begin)
-    }
+    case_of(TEXTS, 3, Landslide::list(), begin).planned(plan_3d()).tables(vec![tables::in_space()])
 }
 
-fn plan_2d() -> Vec<Family> {
+fn plan_2d() -> Plan {
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     let levels = "h0.4 h0.2 h0.1 h0.05";
-    let mut plan = Plan::of(&LEVELS_2D)
+    Plan::of(LEVELS_2D)
         .runs(Pr, "h0.4", &all, "duration=1")
         .runs(Nightly, "h0.4 h0.2 h0.1", &all, "")
         .runs(Nightly, "h0.4", &all, "reduction=1 duration=2.5")
@@ -242,15 +200,13 @@ fn plan_2d() -> Vec<Family> {
         .runs(Long, "h0.2", &all, "damping=0.7")
         .runs(Long, "h0.05", &all, "")
         .runs(Long, levels, &other_transfers(), "")
-        .done();
-    plan.extend(more_particles(Long, &LEVELS_2D[..1]));
-    plan
+        .each(Long, "h0.4", &main_pairs(), ["ppc_per_direction=3", "ppc_per_direction=4"])
 }
 
-fn plan_3d() -> Vec<Family> {
+fn plan_3d() -> Plan {
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     let early = pairs(&[Gimp], &[RemedyName::None, FbarConsistent]);
-    Plan::of(&LEVELS_3D)
+    Plan::of(LEVELS_3D)
         // A narrow slice before a short floor, from under rising gravity to just after the reduction, by long steps.
         .runs(Pr, "h0.5", &early, "width=2 floor=3 duration=0.06 cfl=0.6")
         .runs(Nightly, "slice-h0.4", &early, "duration=0.5")
@@ -260,5 +216,4 @@ fn plan_3d() -> Vec<Family> {
         .each(Nightly, "h0.5", &all, ["", "width=2"])
         .runs(Nightly, "h0.25", &early, "")
         .runs(Long, "h0.25 h0.2", &all, "")
-        .done()
 }

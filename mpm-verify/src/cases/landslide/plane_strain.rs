@@ -1,12 +1,10 @@
 //! A slide in three dimensions with the same section in plane strain beside it.
 
 use super::*;
-use crate::job::{Column, Job, Pulse};
-use crate::parameter::Parameters;
+use crate::job::{Column, Pulse};
 use crate::problem::{Driver, measured};
-use crate::record::{Measured, WorkDone};
+use crate::record::Measured;
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Columns of a slide's series that are shown of the section beside it.
@@ -21,9 +19,6 @@ pub(super) struct Beside {
 
 impl Beside {
     /// Both at their start.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     pub(super) fn new(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
         let setup = Setup::<Landslide>::of_spec(spec, values)?;
         let slide = Driver::new(Slide::new(setup.clone())?)?;

@@ -5,10 +5,6 @@ use super::*;
 use crate::cases::observe::checkerboard;
 use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
-use crate::statistics::rms;
-use mpm_core::Part;
-use mpm_core::material::{HenckyJ2, Strength};
-use mpm_solvers::Solvable;
 
 /// Width (m) in full, and cells across a slice.
 const FULL: f64 = 5.0;
@@ -78,11 +74,6 @@ impl Seen {
 }
 
 impl Setup<Landslide> {
-    /// Distance of particles (m).
-    pub(super) fn spacing(&self) -> f64 {
-        self.h / self.ppc_per_direction as f64
-    }
-
     /// Width (m) in three dimensions.
     ///
     /// # Errors
@@ -313,8 +304,7 @@ where
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(D as u32);
-        self.setup.discretisation(D, ppc, self.ground.dt)
+        self.setup.regular(D, self.ground.dt)
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {

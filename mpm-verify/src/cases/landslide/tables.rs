@@ -1,7 +1,6 @@
 //! Tables of the landslide, in plane strain and in three dimensions.
 
 use super::*;
-use crate::cases::family::transfers;
 
 const LEVEL: Label = ("level", |r| {
     let level = r.level.replace("slice-", "slice, ").replace('h', "");
@@ -12,16 +11,13 @@ const CHANGED: Label = ("changed", |r| r.set.join(", "));
 /// The tables in plane strain.
 pub(super) fn in_plane() -> Vec<ResultTable> {
     let toe = |r: &Record| fixed(2).unit(" m").text(r.metric(RUNOUT_2_5S));
+    let is_main = |r: &Record| is_flip(r) && r.is_default() && r.level == "h0.1";
     vec![
         ResultTable::by_remedy("landslide", &REMEDIES, is_main, runout),
         results(),
         studies(),
         transfers("landslide-transfers", &[PAIR, CELLS], &["3", "4"], toe),
     ]
-}
-
-fn is_main(r: &Record) -> bool {
-    is_flip(r) && r.is_default() && r.level == "h0.1"
 }
 
 fn fails(r: &Record) -> bool {
@@ -59,27 +55,22 @@ fn results() -> ResultTable {
         let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
         format!("{least} … {most}")
     };
-    ResultTable::new(
-        "landslide-2d",
-        |r| r.is_default() && is_flip(r) && r.status == Status::Ok,
-        &[SCHEME, CELLS],
-        [
-            Column::metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2)),
-            Column::metric("at 5.5 s (m)", RUNOUT_END, fixed(2)),
-            Column::metric("of the bulk (m)", BULK_RUNOUT_END, fixed(2)),
-            Column::metric("settlement (m)", SETTLEMENT_END, fixed(2)),
-            Column::metric("failed", FAILED_SHARE_END, share(0)),
-            Column::metric("fails at (s)", FAILURE_TIME, fixed(2)),
-            Column::metric("retrogression (m)", RETROGRESSION_END, fixed(1)),
-            Column::text("bands (rearmost, m)", bands),
-            Column::metric("σ_m − Πσ_m at rest (γH)", CHECKERBOARD_AT_REST, fixed(3)),
-            Column::metric("at 2.5 s", CHECKERBOARD_2_5S, fixed(3)),
-            Column::text("J", range),
-            Column::metric("ln(J/J̄) rms", LOG_JACOBIAN_GAP, fixed(2)),
-            Column::value("lost", lost, share(0)),
-            Column::cpu(),
-        ],
-    )
+    ResultTable::of("landslide-2d", |r| r.is_default() && is_flip(r) && r.status == Status::Ok)
+        .by(&[SCHEME, CELLS])
+        .metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2))
+        .metric("at 5.5 s (m)", RUNOUT_END, fixed(2))
+        .metric("of the bulk (m)", BULK_RUNOUT_END, fixed(2))
+        .metric("settlement (m)", SETTLEMENT_END, fixed(2))
+        .metric("failed", FAILED_SHARE_END, share(0))
+        .metric("fails at (s)", FAILURE_TIME, fixed(2))
+        .metric("retrogression (m)", RETROGRESSION_END, fixed(1))
+        .text("bands (rearmost, m)", bands)
+        .metric("σ_m − Πσ_m at rest (γH)", CHECKERBOARD_AT_REST, fixed(3))
+        .metric("at 2.5 s", CHECKERBOARD_2_5S, fixed(3))
+        .text("J", range)
+        .metric("ln(J/J̄) rms", LOG_JACOBIAN_GAP, fixed(2))
+        .value("lost", lost, share(0))
+        .cpu()
 }
 
 /// The toe at 2.5 s and when it fails, for what may tip the slope.
@@ -100,33 +91,25 @@ fn studies() -> ResultTable {
         }
         false => "–".to_owned(),
     };
-    ResultTable::new(
-        "landslide-studies",
-        is_flip,
-        &[SCHEME, CELLS],
-        SETS.map(|(title, set)| Column::text(title, text).of(move |r| r.set == set)),
-    )
+    ResultTable::of("landslide-studies", is_flip)
+        .by(&[SCHEME, CELLS])
+        .columns(SETS.map(|(title, set)| Column::text(title, text).of(move |r| r.set == set)))
 }
 
 /// The table in three dimensions.
 pub(super) fn in_space() -> ResultTable {
     let spread = scientific(0);
-    ResultTable::new(
-        "landslide-3d",
-        |r| r.status == Status::Ok,
-        &[SCHEME, LEVEL, CHANGED],
-        [
-            Column::value("particles", |r| r.work.particles as f64, fixed(0)),
-            Column::metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2)),
-            Column::metric("at the end (m)", RUNOUT_END, fixed(2)),
-            Column::metric("against plane strain (m)", OFF_PLANE_STRAIN_END, fixed(2).signed()),
-            Column::metric("fails at (s)", FAILURE_TIME, fixed(2)),
-            Column::metric("off plane strain at rest", OFF_PLANE_STRAIN_AT_REST, percent(3)),
-            Column::metric("at 0.5 s", OFF_PLANE_STRAIN_0_5S, percent(3)),
-            Column::metric("spread at rest", WIDTH_SPREAD_AT_REST, spread),
-            Column::metric("at 0.5 s", WIDTH_SPREAD_0_5S, spread),
-            Column::metric("at the end", WIDTH_SPREAD_END, spread),
-            Column::cpu(),
-        ],
-    )
+    ResultTable::of("landslide-3d", |r| r.status == Status::Ok)
+        .by(&[SCHEME, LEVEL, CHANGED])
+        .value("particles", |r| r.work.particles as f64, fixed(0))
+        .metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2))
+        .metric("at the end (m)", RUNOUT_END, fixed(2))
+        .metric("against plane strain (m)", OFF_PLANE_STRAIN_END, fixed(2).signed())
+        .metric("fails at (s)", FAILURE_TIME, fixed(2))
+        .metric("off plane strain at rest", OFF_PLANE_STRAIN_AT_REST, percent(3))
+        .metric("at 0.5 s", OFF_PLANE_STRAIN_0_5S, percent(3))
+        .metric("spread at rest", WIDTH_SPREAD_AT_REST, spread)
+        .metric("at 0.5 s", WIDTH_SPREAD_0_5S, spread)
+        .metric("at the end", WIDTH_SPREAD_END, spread)
+        .cpu()
 }

@@ -5,10 +5,8 @@
 
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
-use super::poro::{ROUNDING, spaces};
-use crate::prelude::*;
+use super::poro::{self, ROUNDING, spaces};
+use crate::cases::prelude::*;
 use run::{END, HEIGHT, WIDTH};
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
@@ -20,12 +18,12 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed slab";
-        conductivity: f64 = real("m/s", "1e-5", 1e-12, 1.0), "hydraulic conductivity k, of water of 9810 N/m³";
+        conductivity: f64 = poro::CONDUCTIVITY;
         load: f64 = real("N/m", "10", 1e-3, 1e6),
             "force F on half a plate: small, so that what is finite of the strain, F/(G a), is below all errors";
         steps: i32 = whole("-", "240", 30, 100_000), "equal steps to T = 0.3";
-        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
+        projection: f64 = poro::PROJECTION;
+        tolerance: f64 = poro::TOLERANCE;
     }
 }
 
@@ -53,55 +51,47 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(WIDTH, LEVELS);
-    Case {
-        description: "A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
-                      in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
-                      difference equations of its cells.",
-        references: vec![
-            "Mandel's series, derived on its page, tested against its equations and an independent integration in time."
-                .to_owned(),
-            "The difference equations by elimination, whose closed form in modes is tested against that.".to_owned(),
-        ],
-        limits: &[
-            "Small strain on a fixed grid, and an answer that does not depend on the height.",
-            "Two particles a cell and axis: with more the difference equations are others.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("pressure", "pressure in the middle over time", "centre-pressure peak"),
-            Wanted::new("motion", "paths of plate and side", "settlement bulge"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3),
-            headline(CENTRE_PRESSURE_ERROR_SPACE, "of space alone (%)", 100.0, 3),
-            headline(PEAK, "peak (F/2a)", 1.0, 4),
-            headline(PEAK_TIME, "its T", 1.0, 4),
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4),
-            headline(EQUATIONS_DISTANCE, "from the difference equations (–)", 1.0, 7),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"),
-            error(CENTRE_PRESSURE_ERROR, "error of p in the middle"),
-        ],
-        watched: &["centre_pressure", "settlement"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        pictures,
-        tables: tables(),
-        ..Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL)
-    }
+    Case::of::<2, run::Consolidation>("mandel", "Consolidation of a slab between plates", ALL)
+        .planned(plan())
+        .described("A slab full of water is pressed together by rigid plates and drains at its sides, at small strain: the pressure \
+            in its middle rises before it falls. Exact solutions are series: of the slab, of its steps, and of the \
+            difference equations of its cells.")
+        .reference("Mandel's series, derived on its page, tested against its equations and an independent integration in time.")
+        .reference("The difference equations by elimination, whose closed form in modes is tested against that.")
+        .limit("Small strain on a fixed grid, and an answer that does not depend on the height.")
+        .limit("Two particles a cell and axis: with more the difference equations are others.")
+        .wanted("pressure", "pressure in the middle over time", "centre-pressure peak")
+        .wanted("motion", "paths of plate and side", "settlement bulge")
+        .checks(checks())
+        .headline(CENTRE_PRESSURE_ERROR, "error of p in the middle (% of F/2a)", 100.0, 3)
+        .headline(CENTRE_PRESSURE_ERROR_SPACE, "of space alone (%)", 100.0, 3)
+        .headline(PEAK, "peak (F/2a)", 1.0, 4)
+        .headline(PEAK_TIME, "its T", 1.0, 4)
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4)
+        .headline(EQUATIONS_DISTANCE, "from the difference equations (–)", 1.0, 7)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"))
+        .quantity(error(CENTRE_PRESSURE_ERROR, "error of p in the middle"))
+        .watched(&["centre_pressure", "settlement"])
+        .sketch(Sketch::of("A quarter of a slab between rigid plates, drained at its side.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]])
+            .held([0.0, 0.0], [1.0, 0.0])
+            .held([0.0, 0.0], [0.0, 0.25])
+            .length([0.0, -0.12], [1.0, -0.12], "a = 1 m")
+            .note([1.12, 0.12], "drained")
+            .note([0.5, 0.5], "plate, F")
+            .loads((0..5).map(|k| 0.1 + 0.2 * f64::from(k)), [0.42, 0.27]))
+        .cost(|spec| 1e-6 * spec.level.h.powi(-3))
+        .pictures(pictures)
+        .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let both = [gimp, linear].concat();
     // 60 steps at n8, 240 at n16 and 960 at n32 shrink as h².
-    Plan::of(levels)
+    Plan::of(levels(WIDTH, LEVELS))
         .runs(Quick, "n8", &gimp[..1], "steps=60")
         .runs(Pr, "n8", &both, "")
         .runs(Pr, "n8", &linear, "steps=60")
@@ -115,23 +105,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n32", &both, "steps=960")
         .each(Pr, "n8", &linear, RATIOS)
         .each(Nightly, "n16", &both, RATIOS)
-        .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]]),
-        Shape::Held([0.0, 0.0], [1.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 0.25]),
-        Shape::length([0.0, -0.12], [1.0, -0.12], "a = 1 m"),
-        Shape::note([1.12, 0.12], "drained"),
-        Shape::note([0.5, 0.5], "plate, F"),
-    ];
-    shapes.extend((0..5).map(|k| {
-        let x = 0.1 + 0.2 * f64::from(k);
-        Shape::Load([x, 0.42], [x, 0.27])
-    }));
-    Sketch { shapes, description: "A quarter of a slab between rigid plates, drained at its side." }
 }
 
 /// The bounds are derived in `docs/mandel.md`.
@@ -203,15 +176,6 @@ fn checks() -> Vec<Check> {
 fn tables() -> Vec<ResultTable> {
     let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
     let together = LEVELS.map(|(level, n)| (level, format!("n = {n}, {} steps", 60.0 * (n / 8.0_f64).powi(2))));
-    let of_n32 = |title: &str, metric, format| Column::metric(title, metric, format).of(|r: &Record| r.level == "n32");
-    let mut of_cells = Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2));
-    of_cells.extend([
-        Column::order(CENTRE_PRESSURE_ERROR_SPACE),
-        of_n32("from the difference equations, n = 32", EQUATIONS_DISTANCE, scientific(1)),
-        of_n32("entries, n = 32", ENTRIES, fixed(0)),
-    ]);
-    let mut of_together = Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2));
-    of_together.push(Column::order(CENTRE_PRESSURE_ERROR));
     let of_ratios = [0.0, 0.25, 0.4].into_iter().flat_map(|ratio| {
         let own = move |r: &Record| Setup::<Mandel>::holds(r, |c| c.poisson_ratio == ratio);
         let column =
@@ -227,13 +191,20 @@ fn tables() -> Vec<ResultTable> {
         r.level == "n16" && Setup::<Mandel>::holds(r, |c| c.steps == 240) && others
     };
     vec![
-        ResultTable::new("mandel-cells", |r| r.is_default(), &[SCHEME], of_cells),
-        ResultTable::new(
-            "mandel-together",
-            |r| Setup::<Mandel>::holds(r, |c| c.shrinks_together()),
-            &[SCHEME],
-            of_together,
-        ),
+        ResultTable::of("mandel-cells", |r| r.is_default())
+            .by(&[SCHEME])
+            .columns(Column::levels(cells, CENTRE_PRESSURE_ERROR_SPACE, scientific(2)))
+            .column(Column::order(CENTRE_PRESSURE_ERROR_SPACE))
+            .columns(Column::levels(
+                [("n32", "from the difference equations, n = 32")],
+                EQUATIONS_DISTANCE,
+                scientific(1),
+            ))
+            .columns(Column::levels([("n32", "entries, n = 32")], ENTRIES, fixed(0))),
+        ResultTable::of("mandel-together", |r| Setup::<Mandel>::holds(r, |c| c.shrinks_together()))
+            .by(&[SCHEME])
+            .columns(Column::levels(together, CENTRE_PRESSURE_ERROR, scientific(2)))
+            .column(Column::order(CENTRE_PRESSURE_ERROR)),
         ResultTable::new("mandel-ratios", is_of_ratios, &[SCHEME], of_ratios),
     ]
 }

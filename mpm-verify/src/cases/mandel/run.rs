@@ -1,12 +1,9 @@
 //! Derived quantities, scene and observations of the slab.
 
 use super::*;
-use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{WATER_WEIGHT, above_rounding, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{above_rounding, mass_error, matrix_entries, outflow};
 use crate::exact::mandel::{self as exact, Cells, Slab, of_particles};
-use mpm_core::Part;
-use mpm_core::material::Hencky;
-use mpm_core::poro::{Conductivity, Plate, Settings, Water};
+use mpm_core::poro::{Plate, Settings};
 
 /// Half the width a, and half the height b (m).
 pub(super) const WIDTH: f64 = 1.0;
@@ -27,24 +24,9 @@ const FINITE: f64 = 10.0;
 const BELOW: Part = Part::Constraint(1);
 
 impl Setup<Mandel> {
-    /// Shear modulus G (Pa).
-    fn shear_modulus(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa).
-    fn modulus(&self) -> f64 {
-        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
-    }
-
-    /// κ (m²/(Pa s)).
-    fn kappa(&self) -> f64 {
-        self.conductivity / WATER_WEIGHT
-    }
-
     /// a²/c (s).
     fn time_scale(&self) -> f64 {
-        WIDTH * WIDTH / (self.kappa() * self.modulus())
+        WIDTH * WIDTH / (self.kappa() * self.oedometric_modulus())
     }
 
     /// F/(G a).
@@ -83,14 +65,6 @@ impl Setup<Mandel> {
         (f64::from(self.steps) - count).abs() < 1e-6 && self.changes_none_but(&["steps"])
     }
 
-    /// τ M of the projection; zero without one.
-    fn strength(&self) -> f64 {
-        match self.space() {
-            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
-            _ => 0.0,
-        }
-    }
-
     /// The exact slab, from the first step on.
     pub(super) fn exact(&self) -> exact::Mandel {
         exact::Mandel::new(self.poisson_ratio, self.step())
@@ -101,7 +75,7 @@ impl Setup<Mandel> {
         let n = (WIDTH / self.h).round() as usize;
         match self.space() {
             Some(TwoGrid) => Cells::two_grid(n),
-            _ => Cells::same(n, self.strength()),
+            _ => Cells::same(n, self.projection_strength()),
         }
     }
 
@@ -220,19 +194,17 @@ impl Problem<2> for Consolidation {
         let axis = |a: usize| Axis::bounded(0.0, cells[a] + ROOM[a], (Side::Wall, Side::Open));
         let grid = Grid::new(h, [axis(0), axis(1)])?;
         let spacing = h / PER_CELL as f64;
-        let row = cells[0] * PER_CELL;
-        let places = (0..row * cells[1] * PER_CELL).map(|k| [k % row, k / row].map(|i| (i as f64 + 0.5) * spacing));
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(c.start_at(places), spacing * spacing, 1000.0, [0.5 * spacing; 2])?;
+        let particles = c.particles_at(by_rows(cells.map(|n| n * PER_CELL), spacing), spacing, 1000.0)?;
         let law = Hencky::new(c.young_modulus, c.poisson_ratio)?;
-        let roller = |axis| Wall { axis, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(roller));
+        let scene =
+            Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(|axis| roller(axis, End::Lo)));
         let plate = Plate::new(1, move |x| x[1] > HEIGHT - 0.25 * h, move |_| -load);
         let water = Water::new(c.porosity, Conductivity::Constant(c.kappa()))
             .drained(move |x| x[0] > WIDTH - 0.25 * h)
             .plate(plate);
         let settings = Settings {
-            pressure_space: c.pressure_space(c.strength() / c.modulus()),
+            pressure_space: c.pressure_space(c.projection_strength() / c.oedometric_modulus()),
             tolerance: c.tolerance,
             ..Settings::new(c.step() * c.time_scale())
         };

@@ -12,16 +12,11 @@ pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
 
 use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRESS_L2};
-use crate::accuracy::fit_order;
+use crate::cases::checks::ladders_by;
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
-use crate::parameter::Parameters;
-use crate::prelude::*;
 use claims::{FORMAL, STALLED};
-use mpm_core::Law;
-use mpm_core::material::NeoHookean;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// A check of a run whose parameters are read by name.
 pub(in crate::cases) type Gate = CheckOf<()>;
@@ -208,16 +203,8 @@ pub(in crate::cases) fn mass() -> Check {
 
 /// The records of each scheme with the same parameters, coarsest first.
 pub(in crate::cases) fn ladders(records: &[Record]) -> Vec<(Scheme, Vec<&Record>)> {
-    let mut ladders: BTreeMap<(Vec<String>, Scheme), Vec<&Record>> = BTreeMap::new();
-    for r in records {
-        let key = (r.set.clone(), r.scheme());
-        ladders.entry(key).or_default().push(r);
-    }
-    let sorted = ladders.into_iter().map(|((_, scheme), mut ladder)| {
-        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-        (scheme, ladder)
-    });
-    sorted.collect()
+    let ladders = ladders_by(records.iter(), |r| (&r.set, r.scheme()));
+    ladders.into_iter().map(|((_, scheme), ladder)| (scheme, ladder)).collect()
 }
 
 /// A ladder of at least three levels that decides an order, and what is claimed of it.

@@ -1,10 +1,7 @@
 //! Errors of a run against the exact motion.
 
 use super::vector;
-use crate::exact::Exact;
-use crate::metric::Metric;
-use crate::statistics::rms;
-use mpm_core::{Particles, Simulation};
+use crate::cases::prelude::*;
 use nalgebra::{Matrix3, Vector3};
 
 /// Displacement of a particle minus the exact one (m); across a periodic end the nearest image counts.

@@ -12,10 +12,9 @@ mod sketch;
 pub(super) mod tables;
 
 use super::parameters;
-use crate::exact::{self, Exact};
-use crate::job::Job;
-use crate::parameter::{Domain, Parameter, ParameterSet, Parameters, number, parameters};
-use crate::prelude::*;
+use crate::cases::prelude::*;
+use crate::exact;
+use crate::parameter::{Domain, number};
 use crate::problem;
 pub(super) use checks::*;
 pub(super) use metrics::*;
@@ -82,25 +81,20 @@ impl<K: Known> ParameterSet for Own<K> {
     }
 }
 
-/// A case of this motion in `D` dimensions, by name, title and description, with the levels, errors and headlines that serve most.
+/// A case of this motion in `D` dimensions, by name, title and description, with the errors and headlines that serve most.
 pub(super) fn known_case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case
 where
     Motion<D, K>: Problem<D, Parameters = Own<K>>,
 {
-    Case {
-        description,
-        levels: levels(),
-        wanted: vec![
-            Wanted::new("displacement", "rms error of u at the end", "error-bound")
-                .missed_by("motion-lost beyond-bound"),
-        ],
-        headlines: headlines(),
-        quantities: ERRORS.to_vec(),
-        watched: &["displacement_l2", "log_jacobian_gap_rms"],
-        sketch: sketch::sketch::<K>(),
-        cost: Box::new(scenario::cost::<K>),
-        ..Case::of::<D, Motion<D, K>>(name, title, METRICS)
-    }
+    Case::of::<D, Motion<D, K>>(name, title, METRICS)
+        .described(description)
+        .wanted("displacement", "rms error of u at the end", "error-bound")
+        .missed_by("motion-lost beyond-bound")
+        .headlines(headlines())
+        .quantities(ERRORS.to_vec())
+        .watched(&["displacement_l2", "log_jacobian_gap_rms"])
+        .sketch(sketch::sketch::<K>())
+        .cost(scenario::cost::<K>)
 }
 
 /// Begins a run in as many dimensions as the exact solution of its parameters has.
@@ -113,10 +107,8 @@ pub(super) fn begin<K: Known>(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn 
 }
 
 /// 8 to 128 cells per metre.
-pub(super) fn levels() -> Vec<Level> {
-    let names = ["n8", "n16", "n32", "n64", "n128"];
-    let levels = names.into_iter().zip([8.0, 16.0, 32.0, 64.0, 128.0]);
-    levels.map(|(name, n)| Level { name, h: 1.0 / n }).collect()
+pub(super) fn metre_levels() -> Vec<Level> {
+    levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0), ("n128", 128.0)])
 }
 
 parameters! { pub(super) const:

@@ -4,12 +4,7 @@ use super::checks::moves;
 use super::metrics::*;
 use super::scenario::Timing;
 use super::{Known, Own, Scenario, errors, vector};
-use crate::prelude::*;
-use crate::statistics::{fit_line, rms};
-use mpm_core::material::{NeoHookean, NewtonianFluid};
-use mpm_solvers::{Solvable, Solved};
-use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use crate::cases::prelude::*;
 
 /// Rows of the time series, and rows per period of a standing wave.
 const ROWS: f64 = 200.0;

@@ -1,9 +1,7 @@
 //! The picture of motions that lock.
 
 use super::{COMPARED, SMOOTH};
-use crate::cases::family::pairs;
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.
 pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f64) -> Result<(), Error> {

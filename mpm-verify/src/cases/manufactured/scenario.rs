@@ -2,16 +2,11 @@
 
 use super::{Boundary, DURATION, HOLD, Known, Own, RELAXATION, STEP_POISSON_RATIO};
 use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG_MODULUS};
+use crate::cases::prelude::*;
 use crate::exact::common::ANGULAR_FREQUENCY;
-use crate::exact::{Exact, Material};
-use crate::parameter::{Parameter, ParameterSet, Parameters};
-use crate::prelude::*;
+use mpm_core::explicit::Remedy;
 use mpm_core::explicit::remedy::FbarConsistent as Consistent;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::explicit::{Remedy, courant_time_step};
-use mpm_core::material::{Law, NeoHookean, NewtonianFluid};
 use mpm_core::stage::BodyForce;
-use mpm_solvers::{Solvable, Solved};
 use nalgebra::Vector3;
 use std::sync::Arc;
 
@@ -176,21 +171,9 @@ impl<K: Known> Scenario<K> {
         let spacing = self.setup.h / self.number(PPC_PER_DIRECTION);
         let extent = solution.extent();
         let counts: [usize; D] = std::array::from_fn(|a| cells(extent[a], spacing));
-        let positions = (0..counts.iter().product()).map(|mut k: usize| {
-            let mut x = [0.0; D];
-            for a in (0..D).rev() {
-                x[a] = extent[a][0] + ((k % counts[a]) as f64 + 0.5) * spacing;
-                k /= counts[a];
-            }
-            x
-        });
-        let mut particles = Particles::new(
-            self.setup.start_at(positions),
-            spacing.powi(D as i32),
-            solution.material().density,
-            [0.5 * spacing; D],
-        )?
-        .deformed(|x| {
+        let places = by_columns(counts, spacing).map(|x| std::array::from_fn(|a| extent[a][0] + x[a]));
+        let particles = self.setup.particles_at(places, spacing, solution.material().density)?;
+        let mut particles = particles.deformed(|x| {
             let x = vector(x);
             let f = solution.deformation_gradient(&x, 0.0);
             (components(&(x + solution.displacement(&x, 0.0))), f.fixed_view::<D, D>(0, 0).into_owned())
@@ -214,16 +197,9 @@ pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
         let particles: f64 = (0..solution.dimension()).map(along).product();
         Some(particles * steps)
     };
-    let remedy = match spec.scheme.remedy() {
-        RemedyName::None => 1.0,
-        FbarConsistent => 3.0,
-        _ => 1.5,
-    };
-    let remedy = match spec.scheme {
-        Scheme::Explicit(_) => remedy,
-        Scheme::Implicit(_) | Scheme::Poro(_) => remedy * NEWTON,
-    };
-    particle_steps().unwrap_or(0.0) * remedy / STEPS_PER_COST
+    let remedy = remedy_cost(spec, [1.0, 1.5, 1.5, 1.5, 3.0]);
+    let solver = if matches!(spec.scheme, Scheme::Explicit(_)) { 1.0 } else { NEWTON };
+    particle_steps().unwrap_or(0.0) * (remedy * solver) / STEPS_PER_COST
 }
 
 /// The solver of a scene, of steps `dt` (s).

@@ -1,8 +1,7 @@
 //! Sketch of the body with its supports.
 
 use super::{Boundary, Known};
-use crate::parameter::Parameters;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::sketch::Point;
 
 /// The body at rest, seen along the third axis; a bar is drawn with a thickness.
@@ -35,15 +34,12 @@ pub(super) fn sketch<K: Known>() -> Sketch {
             },
         ),
     };
-    let mut shapes = vec![Shape::Body(vec![a, b, c, d])];
-    shapes.extend(held.iter().map(|(from, to)| Shape::Held(*from, *to)));
+    let body = Sketch::of(description).body([a, b, c, d]);
+    let body = held.iter().fold(body, |sketch, (from, to)| sketch.held(*from, *to));
     let beside = 0.15 * width;
-    let mut length = |from, to, metres: f64| {
-        shapes.push(Shape::length(from, to, &format!("{metres} m")));
-    };
-    length([x0, y0 - beside], [x1, y0 - beside], width);
-    if solution.dimension() > 1 {
-        length([x1 + beside, y0], [x1 + beside, y1], y1 - y0);
+    let body = body.length([x0, y0 - beside], [x1, y0 - beside], &format!("{width} m"));
+    match solution.dimension() {
+        1 => body,
+        _ => body.length([x1 + beside, y0], [x1 + beside, y1], &format!("{} m", y1 - y0)),
     }
-    Sketch { shapes, description }
 }

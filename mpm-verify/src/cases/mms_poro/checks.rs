@@ -3,8 +3,6 @@
 use super::*;
 use crate::cases::checks::{finest, observed_order};
 use crate::cases::manufactured::checks::ladders;
-use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 /// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/modes.md.
 const DISPERSION: f64 = 0.8;
@@ -50,7 +48,7 @@ pub(super) fn checks() -> Vec<Check> {
 /// Bounds of the errors of u (m) and of p over its rms.
 fn bounds(m: &Run<Motion>) -> [f64; 2] {
     let (moved, pressed) = (m.metric(DISPLACEMENT_SCALE), m.metric(PRESSURE_SCALE));
-    let stiff = m.modulus() * PI;
+    let stiff = m.oedometric_modulus() * PI;
     let of = |h: f64| DISPERSION * (PI * h).powi(2);
     let pressure_cell = if m.space() == Some(TwoGrid) { 2.0 * m.h } else { m.h };
     let (solid, water) = (of(m.h), of(pressure_cell));
@@ -71,7 +69,7 @@ fn claim(metric: Metric, runs: &[&Record]) -> Result<(f64, &'static str), &'stat
         return Err(MOVED);
     }
     let flows = |r: &&Record| {
-        let diffusivity = Setup::<Motion>::number_of(r, |m| m.kappa() * m.modulus());
+        let diffusivity = Setup::<Motion>::number_of(r, |m| m.kappa() * m.oedometric_modulus());
         diffusivity * r.discretisation.dt / r.discretisation.h.powi(2) >= FLOWS
     };
     if metric != PRESSURE_L2 || runs.iter().all(flows) {

@@ -5,12 +5,9 @@
 mod checks;
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::spaces;
+use crate::cases::prelude::*;
 use crate::exact::common as solutions;
-use crate::parameter::ParameterSet;
-use crate::prelude::*;
 use run::Moving;
 
 const LEVELS: [(&str, f64); 4] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0)];
@@ -23,14 +20,8 @@ const TIMES: [&str; 3] = ["source=rates", "source=rates steps=8", "source=rates 
 choices! {
     /// Dependence of the conductivity on the porosity.
     enum Law { KozenyCarman = "kozeny-carman", Constant = "constant" }
-}
-
-choices! {
     /// Source of water.
     enum Source { Steps = "steps", Rates = "rates" }
-}
-
-choices! {
     /// Start of Newton's method.
     enum Start { Particles = "particles", Zero = "zero" }
 }
@@ -77,53 +68,46 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
-    Case {
-        description: "A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
-                      that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
-                      displacement and the pressure, for each space of the pressure, with and without crossing of cells.",
-        references: vec![
-            "Exact solution: derived on dual numbers; its balances are tested by eighth-order differences of a stress and a flux \
-             that are written otherwise.".to_owned(),
-        ],
-        limits: &[
-            "The body fills its grid: no cell is cut, and no surface moves.",
-            "Linear functions stall once particles have moved, as elsewhere.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("fields", "rms errors of u and p at the end", "error-bound"),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7),
-            headline(PRESSURE_L2, "error of p (%)", 100.0, 3),
-            headline(STRESS_L2, "σ′ rms error (Pa)", 1.0, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![
-            error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0),
-            error(PRESSURE_L2, "rms error of p").of_order(2.0),
-            error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0),
-        ],
-        watched: &["displacement_l2", "pressure_l2"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-4 * spec.level.h.powi(-3)),
-        begin: Box::new(|spec, parameters| match Motion::read(parameters)?.dimension {
+    Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
+        .planned(plan())
+        .described("A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \
+            that make motion and pressure known, at finite strain and with gravity. Orders in space and time of the \
+            displacement and the pressure, for each space of the pressure, with and without crossing of cells.")
+        .reference("Exact solution: derived on dual numbers; its balances are tested by eighth-order differences of a stress and a flux \
+         that are written otherwise.")
+        .limit("The body fills its grid: no cell is cut, and no surface moves.")
+        .limit("Linear functions stall once particles have moved, as elsewhere.")
+        .wanted("fields", "rms errors of u and p at the end", "error-bound")
+        .checks(checks::checks())
+        .headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 7)
+        .headline(PRESSURE_L2, "error of p (%)", 100.0, 3)
+        .headline(STRESS_L2, "σ′ rms error (Pa)", 1.0, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(DISPLACEMENT_L2, "rms error of u (m)").of_order(2.0))
+        .quantity(error(PRESSURE_L2, "rms error of p").of_order(2.0))
+        .quantity(error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0))
+        .watched(&["displacement_l2", "pressure_l2"])
+        .sketch(Sketch::of("A body full of water that slides along its sides but doesn't leave them, drained at its top.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .held([1.0, 0.0], [0.0, 0.0])
+            .held([0.0, 0.0], [0.0, 1.0])
+            .held([0.0, 1.0], [1.0, 1.0])
+            .held([1.0, 1.0], [1.0, 0.0])
+            .length([0.0, -0.15], [1.0, -0.15], "1 m")
+            .note([0.5, 1.12], "p = 0"))
+        .cost(|spec| 1e-4 * spec.level.h.powi(-3))
+        .begun(|spec, parameters| match Motion::read(parameters)?.dimension {
             1 => crate::problem::begin::<1, Moving>(spec, parameters),
             _ => crate::problem::begin::<2, Moving>(spec, parameters),
-        }),
-        tables: tables(),
-        ..Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
-    }
+        })
+        .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const THREE: &str = "n8 n16 n32";
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "n8", &gimp[..1], "")
         .runs(Pr, THREE, &gimp, "")
         .runs(Pr, THREE, &linear[..1], "")
@@ -141,33 +125,13 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n16", &gimp, "amplitude=0.04 predictor=zero")
         .each(Pr, "n16", &gimp[1..2], TIMES)
         .each(Nightly, "n32", &gimp, TIMES)
-        .done()
-}
-
-fn sketch() -> Sketch {
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
-            Shape::Held([1.0, 0.0], [0.0, 0.0]),
-            Shape::Held([0.0, 0.0], [0.0, 1.0]),
-            Shape::Held([0.0, 1.0], [1.0, 1.0]),
-            Shape::Held([1.0, 1.0], [1.0, 0.0]),
-            Shape::length([0.0, -0.15], [1.0, -0.15], "1 m"),
-            Shape::note([0.5, 1.12], "p = 0"),
-        ],
-        description: "A body full of water that slides along its sides but doesn't leave them, drained at its top.",
-    }
 }
 
 fn tables() -> Vec<ResultTable> {
     let errors = |metric: Metric, title: &'static str, levels: usize| {
         let titles = LEVELS[..levels].iter().map(|(level, n)| (*level, format!("{title}, n = {n}")));
-        let mut columns = Column::levels(titles, metric, scientific(2));
-        columns.push(Column::row(format!("order of {title}"), move |runs, _| {
-            let found = order(runs.iter().copied(), metric.name);
-            found.map_or_else(|| "–".to_owned(), |o| o.to_string())
-        }));
-        columns
+        let order = Column::plain_order(format!("order of {title}"), metric);
+        Column::levels(titles, metric, scientific(2)).into_iter().chain([order])
     };
     // Errors of u and p over the cells.
     let cells = |name: &str, set: &'static str, levels: usize| {
@@ -189,24 +153,18 @@ fn tables() -> Vec<ResultTable> {
         cells("mms-poro-one-step", "steps=1", 4),
         cells("mms-poro-crossing", CROSSING, 4),
         cells("mms-poro-tight", TIGHT, 3),
-        ResultTable::new(
-            "mms-poro-steps",
-            |r| {
-                let changed = r.set.iter().any(|s| s.starts_with("source"));
-                r.level == "n32" && changed && r.changes_none_but(&["source", "steps"])
-            },
-            &[SCHEME],
-            Column::over(counts, steps, PRESSURE_L2, scientific(2)),
-        ),
+        ResultTable::of("mms-poro-steps", |r| {
+            let changed = r.set.iter().any(|s| s.starts_with("source"));
+            r.level == "n32" && changed && r.changes_none_but(&["source", "steps"])
+        })
+        .by(&[SCHEME])
+        .columns(Column::over(counts, steps, PRESSURE_L2, scientific(2))),
         // Small and large motions.
-        ResultTable::new(
-            "mms-poro-predictor",
-            |r| {
-                let own = r.level == "n16" && r.basis() == Gimp;
-                own && r.changes_none_but(&["predictor", "amplitude"])
-            },
-            &[SCHEME],
-            predictors,
-        ),
+        ResultTable::of("mms-poro-predictor", |r| {
+            let own = r.level == "n16" && r.basis() == Gimp;
+            own && r.changes_none_but(&["predictor", "amplitude"])
+        })
+        .by(&[SCHEME])
+        .columns(predictors),
     ]
 }

@@ -1,11 +1,9 @@
 //! Derived quantities, scene and observations of the motion, beside the exact one.
 
 use super::*;
-use crate::cases::poro::{WATER_WEIGHT, matrix_entries};
+use crate::cases::poro::matrix_entries;
 use crate::exact::poro::{Moment, SolidAndWater};
-use crate::statistics::rms;
-use mpm_core::material::ImprovedHencky;
-use mpm_core::poro::{Conductivity, Gravity, Predictor, Settings, Tangent, Water};
+use mpm_core::poro::{Gravity, Predictor, Settings, Tangent};
 use mpm_core::stage::BodyForce;
 use mpm_solvers::Soaked;
 use std::array::from_fn;
@@ -14,21 +12,6 @@ use std::array::from_fn;
 const DENSITIES: [f64; 2] = [1000.0, 2600.0];
 
 impl Setup<Motion> {
-    /// Shear modulus G (Pa) of undeformed material.
-    fn shear(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa) of undeformed material.
-    pub(super) fn modulus(&self) -> f64 {
-        2.0 * self.shear() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
-    }
-
-    /// κ (m²/(Pa s)) of undeformed material.
-    pub(super) fn kappa(&self) -> f64 {
-        self.conductivity / WATER_WEIGHT
-    }
-
     /// Duration of a step (s).
     fn step(&self) -> f64 {
         self.duration / f64::from(self.steps)
@@ -51,14 +34,14 @@ impl Setup<Motion> {
             Law::Constant => Conductivity::Constant(kappa),
             Law::KozenyCarman => Conductivity::KozenyCarman(kappa * (1.0 - porosity).powi(2) / porosity.powi(3)),
         };
-        Ok((ImprovedHencky::new(self.bulk_parameter(), self.shear(), porosity)?, conductivity))
+        Ok((ImprovedHencky::new(self.bulk_parameter(), self.shear_modulus(), porosity)?, conductivity))
     }
 
     /// The exact motion, with a law and a conductivity of its own.
     fn solution(&self) -> SolidAndWater {
         SolidAndWater {
             dimension: self.dimension as usize,
-            moduli: [self.bulk_parameter(), self.shear()],
+            moduli: [self.bulk_parameter(), self.shear_modulus()],
             porosity: self.porosity,
             kappa: self.kappa(),
             kozeny_carman: self.conductivity_law == Law::KozenyCarman,
@@ -134,21 +117,17 @@ where
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(D as u32);
-        self.setup.discretisation(D, ppc, self.setup.step())
+        self.setup.regular(D, self.setup.step())
     }
 
     fn begin(&self, (): &()) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         let (m, exact, h) = (&self.setup, self.solution, self.setup.h);
         let (law, conductivity) = m.own()?;
         let grid = Grid::new(h, [Axis::walls(0.0, (1.0 / h).round() as usize); D])?;
-        let spacing = h / m.ppc_per_direction as f64;
-        let along = (1.0 / spacing).round() as usize;
-        let places =
-            (0..along.pow(D as u32)).map(|k| from_fn(|a| ((k / along.pow(a as u32) % along) as f64 + 0.5) * spacing));
-        let particles =
-            Particles::new(m.start_at(places), spacing.powi(D as i32), exact.dry_density(), [0.5 * spacing; D])?;
-        let rollers = (0..D).flat_map(|axis| [End::Lo, End::Hi].map(|end| Wall { axis, end, kind: WallKind::Roller }));
+        let spacing = m.pitch();
+        let places = by_rows([(1.0 / spacing).round() as usize; D], spacing);
+        let particles = m.particles_at(places, spacing, exact.dry_density())?;
+        let rollers = (0..D).flat_map(|axis| [End::Lo, End::Hi].map(|end| roller(axis, end)));
         let force = BodyForce(Box::new(move |x: &[f64; D], t| {
             let force = exact.at(place(x), t).body_force;
             from_fn(|a| force[a])
@@ -164,7 +143,7 @@ where
             .drained(move |x| x[D - 1] > 1.0 - 0.25 * h)
             .source(move |x, span| exact.inflow(place(x), span, whole));
         let settings = Settings {
-            pressure_space: m.pressure_space(m.projection / (2.0 * m.shear())),
+            pressure_space: m.pressure_space(m.projection / (2.0 * m.shear_modulus())),
             tangent: Tangent::Consistent,
             predictor: match m.predictor {
                 Start::Zero => Predictor::Zero,

@@ -6,14 +6,10 @@ use crate::cases::manufactured::{
 };
 use crate::exact::common::ANGULAR_FREQUENCY;
 use crate::exact::twist::ANGLE;
-use crate::exact::{self, Exact, Material, swirl, vortex_pressure};
-use crate::job::Job;
-use crate::parameter::{Domain, Parameters, number, parameters};
+use crate::exact::{self, swirl, vortex_pressure};
+use crate::parameter::{Domain, number};
 use crate::problem;
-use crate::statistics::rms;
 use mpm_core::implicit::Settings;
-use mpm_core::material::NeoHookean;
-use mpm_solvers::Solved;
 
 parameters! { const:
     DIMENSION = "dimension", "-", "2", Domain::Integer { least: 2, most: 3 },

@@ -6,9 +6,7 @@
 mod run;
 
 use super::checks::quadratic;
-use super::family::{implicit, levels};
-use super::parameters as common;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// The tolerance of Newton's method, with a share for rounding.
 const CONVERGED: f64 = 1e-7;
@@ -58,38 +56,28 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0)]);
-    Case {
-        description: "A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
-                      load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.",
-        references: vec![
-            "Exact: uniaxial strain of a Hencky body under its own weight, elastic or yielding, src/cases/newton/exact.rs."
-                .to_owned(),
-        ],
-        limits: &["Uniaxial strain, one law, no stabilisation of cut cells."],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is").missed_by("moved-quadrature hair-cut"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(CARRIED, "load carried (%)", 100.0, 1),
-            headline(BEARABLE, "that there is (%)", 100.0, 1),
-            headline(EQUILIBRIUM_ERROR, "error (–)", 1.0, 5),
-            headline(BOUND, "bound (–)", 1.0, 5),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-            headline(PARTS, "most parts of a step", 1.0, 0),
-        ],
-        watched: &["equilibrium_error", "newton_iterations"],
-        sketch: sketch(),
-        cost: Box::new(|_| 0.05),
-        tables: tables(),
-        ..Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL)
-    }
+    Case::of::<2, run::Loaded>("newton", "Load steps that are far too large", ALL)
+        .planned(plan())
+        .described("A column under its own weight, which softens where it hangs and touches a barrier where it stands, in a thousand \
+            load steps or in one: the implicit solver finds the exact equilibrium, cuts the step, or says that it finds none.")
+        .reference("Exact: uniaxial strain of a Hencky body under its own weight, elastic or yielding, src/cases/newton/exact.rs.")
+        .limit("Uniaxial strain, one law, no stabilisation of cut cells.")
+        .wanted("equilibrium", "last equilibrium that was found", "never-wrong no-more-than-there-is")
+        .missed_by("moved-quadrature hair-cut")
+        .checks(checks())
+        .headline(CARRIED, "load carried (%)", 100.0, 1)
+        .headline(BEARABLE, "that there is (%)", 100.0, 1)
+        .headline(EQUILIBRIUM_ERROR, "error (–)", 1.0, 5)
+        .headline(BOUND, "bound (–)", 1.0, 5)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .headline(PARTS, "most parts of a step", 1.0, 0)
+        .watched(&["equilibrium_error", "newton_iterations"])
+        .sketch(sketch())
+        .cost(|_| 0.05)
+        .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let all = implicit(&[RuleName::QuasiStatic], &[Gimp, Linear, Bspline2], &[RemedyName::None, FbarConsistent]);
     let splines: Vec<Scheme> = all.iter().copied().filter(|s| s.basis() == Bspline2).collect();
     // Loads in one step, and standing columns: iterations that rounding hardly changes.
@@ -114,7 +102,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         "load=20 support=stands",
         "gap=0.99 support=stands",
     ];
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0)]))
         .runs(Quick, "n8", &all[..1], "")
         .runs(Pr, "n8", &all, "")
         .each(Pr, "n8", &all, sure)
@@ -124,24 +112,18 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n8", &all, small)
         .runs(Nightly, "n16", &all, "")
         .each(Nightly, "n16", &all, sure)
-        .done()
 }
 
 fn sketch() -> Sketch {
-    let column = |x: f64| Shape::Body(vec![[x, 0.0], [x + 0.25, 0.0], [x + 0.25, 1.0], [x, 1.0]]);
-    let weight = |x: f64| Shape::Load([x + 0.125, 0.6], [x + 0.125, 0.35]);
-    Sketch {
-        shapes: vec![
-            column(0.0),
-            weight(0.0),
-            Shape::Held([0.0, 1.0], [0.25, 1.0]),
-            column(0.6),
-            weight(0.6),
-            Shape::Held([0.5, -0.03], [0.95, -0.03]),
-            Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-        ],
-        description: "A column of 1 m that hangs under its weight, and one that stands on a floor; rollers at the sides.",
-    }
+    let column = |x: f64| [[x, 0.0], [x + 0.25, 0.0], [x + 0.25, 1.0], [x, 1.0]];
+    Sketch::of("A column of 1 m that hangs under its weight, and one that stands on a floor; rollers at the sides.")
+        .body(column(0.0))
+        .load([0.125, 0.6], [0.125, 0.35])
+        .held([0.0, 1.0], [0.25, 1.0])
+        .body(column(0.6))
+        .load([0.6 + 0.125, 0.6], [0.6 + 0.125, 0.35])
+        .held([0.5, -0.03], [0.95, -0.03])
+        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
 }
 
 impl Run<'_, Newton> {

@@ -4,12 +4,7 @@ use super::*;
 use crate::cases::checks::newton_rate;
 use crate::cases::observe::finds_equilibrium;
 use crate::exact::uniaxial::{Body as Uniaxial, Column as Exact};
-use crate::statistics::rms;
-use mpm_core::contact::{Barrier, RigidContact, RigidFace};
-use mpm_core::material::{Hencky, HenckyJ2, Strength};
-use mpm_core::stage::Gravity;
-use mpm_core::{Error as Fault, Law, Part, implicit};
-use mpm_solvers::Solved;
+use mpm_core::implicit;
 use std::f64::consts::E;
 
 /// Height of the column (m), and cells across it.
@@ -48,10 +43,6 @@ pub(super) struct Loaded {
 }
 
 impl Loaded {
-    fn spacing(&self) -> f64 {
-        self.setup.h / self.setup.ppc_per_direction as f64
-    }
-
     fn settings(&self) -> implicit::Settings {
         implicit::Settings::new(1.0 / f64::from(self.setup.load_steps))
     }
@@ -95,23 +86,23 @@ impl Loaded {
     /// The barrier that carries the weight of a column of particles at a part of its distance.
     fn barrier(&self) -> Result<Barrier, Fault> {
         let reach = REACH * self.setup.h;
-        Barrier::carrying_at(self.weight * self.spacing(), CARRIES * reach, reach)
+        Barrier::carrying_at(self.weight * self.setup.pitch(), CARRIES * reach, reach)
     }
 
     /// Gaps of the lowest particles (m): their mean, and the exact one at a share of the load.
     fn gaps(&self, run: &dyn Simulation<2>, share: f64) -> Result<[f64; 2], Fault> {
         let (p, floor) = (run.particles(), self.floor());
         let lowest = p.reference.iter().zip(&p.position);
-        let lowest = lowest.filter(|([_, y], _)| *y < self.spacing());
+        let lowest = lowest.filter(|([_, y], _)| *y < self.setup.pitch());
         let gaps: Vec<f64> = lowest.map(|(_, [_, y])| y - floor).collect();
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
-        let exact = self.barrier()?.gap(share * self.weight * self.spacing());
+        let exact = self.barrier()?.gap(share * self.weight * self.setup.pitch());
         Ok([mean, exact])
     }
 
     /// Height of the floor (m).
     fn floor(&self) -> f64 {
-        0.5 * self.spacing() - self.setup.gap * REACH * self.setup.h
+        0.5 * self.setup.pitch() - self.setup.gap * REACH * self.setup.h
     }
 
     /// Rms error of the displacements over the height; nothing if there is no exact equilibrium.
@@ -136,7 +127,7 @@ impl Loaded {
 
     /// The column of a law at its start.
     fn simulation<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, Fault> {
-        let (h, spacing) = (self.setup.h, self.spacing());
+        let (h, spacing) = (self.setup.h, self.setup.pitch());
         let cells = (HEIGHT / h).round() as usize;
         let upward = if self.setup.stands() {
             Axis::open(-HEIGHT, 3 * cells)
@@ -146,11 +137,8 @@ impl Loaded {
         };
         let grid = Grid::new(h, [Axis::walls(0.0, ACROSS), upward])?;
         let counts = [ACROSS as f64 * h, HEIGHT].map(|l| (l / spacing).round() as usize);
-        let place = |k: usize| [k % counts[0], k / counts[0]].map(|k| (k as f64 + 0.5) * spacing);
-        let places = self.setup.start_at((0..counts[0] * counts[1]).map(place));
-        let particles = Particles::new(places, spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let particles = self.setup.particles_at(by_rows(counts, spacing), spacing, DENSITY)?;
         let gravity = self.weight / (DENSITY * HEIGHT);
-        let roller = |axis, end| Wall { axis, end, kind: WallKind::Roller };
         let mut scene = Scene::new(grid, Body::new(law, particles)?)
             .load(Gravity(Box::new(move |share| [0.0, -share * gravity])))
             .constrain(roller(0, End::Lo))
@@ -180,8 +168,7 @@ impl Problem<2> for Loaded {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(2);
-        self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
+        self.setup.regular(2, 1.0 / f64::from(self.setup.load_steps))
     }
 
     fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {

@@ -1,8 +1,7 @@
 //! Form of a scene file: its keys, their units in their names, and the ranges of their values.
 
 use super::fault::Line;
-use serde::Deserialize;
-use std::collections::BTreeMap;
+use crate::cases::prelude::*;
 
 /// The version of the format that this program reads.
 pub(super) const FORMAT: u32 = 1;

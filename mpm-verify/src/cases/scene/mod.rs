@@ -17,15 +17,11 @@ mod watch;
 mod tests;
 
 use super::family::family;
-use crate::case::{Begin, Case, Tier};
+use crate::case::Tier;
+use crate::cases::prelude::*;
 use crate::check::{checks, judge, run};
-use crate::error::Error;
 use crate::files::{Mark, read_text};
-use crate::job::Job;
-use crate::parameter::Parameters;
-use crate::problem::{Driver, Problem};
-use crate::scheme::Scheme;
-use crate::spec::{Level, RunSpec};
+use crate::problem::Driver;
 use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;
@@ -134,7 +130,7 @@ fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin)
     });
     Case {
         description: "What a scene file describes.",
-        limits: &["Nothing is known of the answer, so nothing is judged."],
+        limits: vec!["Nothing is known of the answer, so nothing is judged."],
         levels: vec![level],
         plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
         checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },

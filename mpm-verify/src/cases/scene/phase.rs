@@ -3,9 +3,7 @@
 use super::fault::{Line, Source};
 use super::form::{Form, LawForm, WaterForm};
 use super::law::{Material, shear_strength};
-use crate::error::Error;
-use crate::scheme::Scheme;
-use mpm_core::explicit::courant_time_step;
+use crate::cases::prelude::*;
 
 /// Most rows of a phase, and most steps of a row.
 const MOST_ROWS: f64 = 1e7;

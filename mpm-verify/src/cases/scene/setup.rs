@@ -7,18 +7,12 @@ use super::form::{
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{ends, holds, seed, vector};
-use crate::error::Error;
-use crate::scheme::{RuleName, Scheme, SpaceName};
+use crate::cases::prelude::*;
 use mpm_core::basis::WallTreatment;
-use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::implicit::{self, Stabilisation, TimeRule};
-use mpm_core::material::Law;
-use mpm_core::poro::{self, Conductivity, Face, PressureSpace, Water};
-use mpm_core::stage::{
-    Constraint, DeadForce, End, Gravity, KineticDamping, Load, LocalDamping, RigidNodes, Wall, WallKind, smooth_rise,
-};
-use mpm_core::{Axis, Body, Grid, Particles, Scene, Side, explicit};
+use mpm_core::explicit;
+use mpm_core::implicit::{self, TimeRule};
+use mpm_core::poro::{self, Face, PressureSpace};
+use mpm_core::stage::{Constraint, DeadForce, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise};
 
 /// Most cells of a grid.
 const MOST_CELLS: f64 = 1e8;

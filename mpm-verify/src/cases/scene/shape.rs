@@ -3,9 +3,7 @@
 
 use super::fault::{Line, Source};
 use super::form::{BodyForm, Finite, Region, ShapeForm};
-use crate::error::Error;
-use crate::table::Table;
-use mpm_core::Grid;
+use crate::cases::prelude::*;
 use std::collections::HashSet;
 
 /// Most particles of a scene.

@@ -4,16 +4,9 @@ use super::phase::Phase;
 use super::setup::Setup as Made;
 use super::solving::{Compiled, Solving};
 use crate::cases::observe::checkerboard;
-use crate::error::Error;
-use crate::job::{Row, Snapshot};
-use crate::metric::{Metric, metrics};
-use crate::problem::{self, Columns, Problem};
-use crate::record::Discretisation;
-use crate::scheme::Scheme;
-use crate::setup::Setup;
+use crate::cases::prelude::*;
+use crate::problem;
 use mpm_core::basis::WallTreatment;
-use mpm_core::{Field, Part, Simulation};
-use serde::{Deserialize, Serialize};
 
 metrics! { pub(super) ALL:
     MASS = "mass", "kg", "mass of the body";

@@ -1,7 +1,6 @@
 //! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
 
-use mpm_core::Law;
-use mpm_core::material::NeoHookean;
+use crate::cases::prelude::*;
 use nalgebra::Matrix3;
 
 /// Halvings of the interval in which the stretch is.

@@ -5,9 +5,7 @@
 mod jump;
 mod run;
 
-use super::family::{BASES, REMEDIES, levels, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::WAY;
 
 /// Speed over that of waves up to which only rounding and cells disturb the exact state.
@@ -27,7 +25,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 
@@ -57,59 +55,41 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n64", 64.0), ("n128", 128.0), ("n256", 256.0)]);
-    Case {
-        description: "A bar runs into a wall at a tenth to twice the speed of its waves and comes to rest behind a front, whose speed, \
-                      stress and loss of energy are exact.",
-        references: vec![
-            "Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs.".to_owned(),
-        ],
-        limits: &["Without an artificial viscosity what a front should take rings behind it: none is the default."],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("front", "speed of the front", "shock-speed")
-                .missed_by("recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings"),
-            Wanted::new(
-                "stress",
-                "mean stress behind the front, and momentum that the wall takes",
-                "stress wall-force",
-            )
-            .missed_by("front-missed recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(SHOCK_SPEED_ERROR, "speed of the front (%)", 100.0, 2),
-            headline(STRESS_ERROR, "mean stress (%)", 100.0, 2),
-            headline(OVERSHOOT, "overshoot (%)", 100.0, 0),
-            headline(RINGING, "rings (%)", 100.0, 1),
-            headline(ENERGY_LOSS_ERROR, "energy lost, over the exact (%)", 100.0, 0),
-            headline(LOSS_RATE_ERROR, "rate of the loss (%)", 100.0, 1),
-            headline(FRONT_WIDTH, "width of the front (m)", 1.0, 4),
-            headline(PREDICTED_WIDTH, "predicted (m)", 1.0, 4),
-        ],
-        watched: &["front", "kinetic_energy"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Held([0.0, -0.1], [0.0, 0.2]),
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.0, 0.1]]),
-                Shape::Load([0.75, 0.05], [0.45, 0.05]),
-                Shape::length([0.0, -0.08], [1.0, -0.08], "1 m"),
-            ],
-            description: "A bar of 1 m whose end touches a wall and which moves towards it.",
-        },
-        tables: tables(),
-        breaks_down: |r| {
+    Case::of::<1, run::Bar>("shock", "A bar runs into a wall", ALL)
+        .planned(plan())
+        .described("A bar runs into a wall at a tenth to twice the speed of its waves and comes to rest behind a front, whose speed, \
+            stress and loss of energy are exact.")
+        .reference("Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs.")
+        .limit("Without an artificial viscosity what a front should take rings behind it: none is the default.")
+        .wanted("front", "speed of the front", "shock-speed")
+        .missed_by("recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings")
+        .wanted("stress", "mean stress behind the front, and momentum that the wall takes", "stress wall-force")
+        .missed_by("front-missed recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings")
+        .checks(checks())
+        .headline(SHOCK_SPEED_ERROR, "speed of the front (%)", 100.0, 2)
+        .headline(STRESS_ERROR, "mean stress (%)", 100.0, 2)
+        .headline(OVERSHOOT, "overshoot (%)", 100.0, 0)
+        .headline(RINGING, "rings (%)", 100.0, 1)
+        .headline(ENERGY_LOSS_ERROR, "energy lost, over the exact (%)", 100.0, 0)
+        .headline(LOSS_RATE_ERROR, "rate of the loss (%)", 100.0, 1)
+        .headline(FRONT_WIDTH, "width of the front (m)", 1.0, 4)
+        .headline(PREDICTED_WIDTH, "predicted (m)", 1.0, 4)
+        .watched(&["front", "kinetic_energy"])
+        .sketch(Sketch::of("A bar of 1 m whose end touches a wall and which moves towards it.")
+            .held([0.0, -0.1], [0.0, 0.2])
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.1], [0.0, 0.1]])
+            .load([0.75, 0.05], [0.45, 0.05])
+            .length([0.0, -0.08], [1.0, -0.08], "1 m"))
+        .tables(tables())
+        .breaks_down(|r| {
             let smeared = r.basis() == Linear && r.remedy() == FbarRecursive;
             let fine = r.discretisation.h < 0.01 && r.is_default();
             (smeared && fine)
                 .then_some("under a pressure averaged hats are unstable at any step: docs/critical-step.md")
-        },
-        ..Case::of::<1, run::Bar>("shock", "A bar runs into a wall", ALL)
-    }
+        })
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
     let plain = pairs(&BASES, &[none]);
@@ -123,7 +103,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let [as_fast, twice] = [format!("mach=1 {damped}"), format!("mach=2 {damped}")];
     let slightly = "linear_viscosity=0.06 quadratic_viscosity=1.5";
     let twice_slightly = format!("mach=2 {slightly}");
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n64", 64.0), ("n128", 128.0), ("n256", 256.0)]))
         .runs(Pr, "n64", &viscous, damped)
         .runs(Pr, "n64 n128", &viscous[..2], &twice)
         .runs(Pr, "n128", &weak[..1], &twice_slightly)
@@ -142,7 +122,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "n64 n128 n256", &some, "mach=0.1")
         .runs(Nightly, "n64 n128 n256", &sound, "mach=1")
         .runs(Nightly, "n64 n128", &sound, "mach=2")
-        .done()
 }
 
 impl Run<'_, Shock> {

@@ -2,12 +2,7 @@
 
 use super::jump::Jump;
 use super::*;
-use crate::statistics::{fit_line, rms};
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::material::{NeoHookean, Viscous};
-use mpm_core::{Law, Part};
-use mpm_solvers::Solvable;
+use mpm_core::material::Viscous;
 
 /// Length (m), Young's modulus (Pa) and density (kg/m³) of the bar.
 const LENGTH: f64 = 1.0;
@@ -80,17 +75,14 @@ impl Bar {
     /// A simulation of the bar with the law `law`.
     fn with<M: Solvable<1>>(&self, law: M) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
         let h = self.setup.h;
-        let size = h / self.setup.ppc_per_direction as f64;
+        let size = self.setup.pitch();
         let cells = (LENGTH / h).round() as usize;
         let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
         let count = (LENGTH / size).round() as usize;
-        let places = (0..count).map(|k| [(k as f64 + 0.5) * size]);
-        let mut particles = Particles::new(self.setup.start_at(places), size, DENSITY, [0.5 * size])?;
+        let mut particles = self.setup.particles_at(by_rows([count], size), size, DENSITY)?;
         particles.velocity.fill([-self.speed]);
-        let wall = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(wall);
-        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
+        self.setup.explicit(scene, self.dt, 0.0)
     }
 
     /// Stress (Pa) and velocity (m/s) of the particles behind the front, at the end.
@@ -122,7 +114,7 @@ impl Problem<1> for Bar {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(1, self.setup.ppc_per_direction, self.dt)
+        self.setup.regular(1, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {

@@ -2,12 +2,8 @@
 
 use super::section::{GRAVITY, Section};
 use super::*;
-use crate::parameter::ParameterSet;
-use crate::prelude::*;
-use mpm_core::explicit::courant_time_step;
-use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{Gravity, smooth_rise};
-use std::f64::consts::SQRT_2;
+use crate::cases::prelude::*;
+use mpm_core::stage::smooth_rise;
 
 /// Time (s) between two rows of the series.
 pub(in crate::cases) const ROW: f64 = 0.01;
@@ -84,9 +80,6 @@ pub(in crate::cases) struct Ground<const D: usize> {
 
 impl<const D: usize> Ground<D> {
     /// The ground of a setup, of this width (m).
-    ///
-    /// # Errors
-    /// Parameters that make no law.
     pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, mpm_core::Error> {
         let (slope, h) = (setup.slope(), setup.h);
         let number = |p| setup.values.number(p);
@@ -137,10 +130,7 @@ impl<const D: usize> Ground<D> {
         strength: Strength,
         rise: f64,
     ) -> Result<Scene<D, HenckyJ2>, mpm_core::Error> {
-        let volume = self.spacing.powi(D as i32);
-        let half_size = [0.5 * self.spacing; D];
-        let places = setup.start_at(self.seed());
-        let particles = Particles::new(places, volume, self.slope.density, half_size)?;
+        let particles = setup.particles_at(self.seed(), self.spacing, self.slope.density)?;
         let weight = Gravity(Box::new(move |time| {
             let mut g = [0.0; D];
             g[1] = -GRAVITY * smooth_rise(time, rise);
@@ -153,11 +143,6 @@ impl<const D: usize> Ground<D> {
 
 /// The fixed base, then rollers at the back and, in three dimensions, at the sides.
 fn walls<const D: usize>() -> Vec<Wall> {
-    let wall = |axis, end, kind| Wall { axis, end, kind };
-    let mut walls = vec![wall(1, End::Lo, WallKind::Fixed), wall(0, End::Lo, WallKind::Roller)];
-    if D == 3 {
-        walls.push(wall(2, End::Lo, WallKind::Roller));
-        walls.push(wall(2, End::Hi, WallKind::Roller));
-    }
-    walls
+    let sides = if D == 3 { vec![roller(2, End::Lo), roller(2, End::Hi)] } else { Vec::new() };
+    [vec![clamp(1, End::Lo), roller(0, End::Lo)], sides].concat()
 }

@@ -3,9 +3,8 @@
 pub(super) mod ground;
 pub(super) mod section;
 
-use super::parameters as common;
-use crate::parameter::{Domain, Parameter, number, parameters};
-use crate::sketch::{Shape, Sketch};
+use crate::cases::prelude::*;
+use crate::parameter::{Domain, number};
 use section::Section;
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("25e6").within(number(1e3, 1e12, false));
@@ -27,18 +26,13 @@ pub(super) const PPC_PER_DIRECTION: Parameter = common::PPC_PER_DIRECTION.within
 /// The section, with its height (and width) as labelled.
 pub(super) fn sketch(height: &str) -> Sketch {
     let section = Section { height: 5.0, crest: 10.0, run: 5.0 };
-    let shapes = vec![
-        Shape::Body(section.corners().to_vec()),
-        Shape::Held([24.0, 0.0], [0.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 5.0]),
-        Shape::length([0.0, 5.7], [10.0, 5.7], "10 m"),
-        Shape::length([10.0, 5.7], [15.0, 5.7], "5 m"),
-        Shape::length([-0.7, 0.0], [-0.7, 5.0], height),
-        Shape::note([5.0, 2.5], "clay"),
-        Shape::note([19.0, 0.8], "fixed floor"),
-    ];
-    Sketch {
-        shapes,
-        description: "A slope of clay five metres high with a face at 45°; its crest is ten metres long, up to a smooth wall. The floor is fixed and runs on thirty metres past the toe.",
-    }
+    Sketch::of("A slope of clay five metres high with a face at 45°; its crest is ten metres long, up to a smooth wall. The floor is fixed and runs on thirty metres past the toe.")
+        .body(section.corners())
+        .held([24.0, 0.0], [0.0, 0.0])
+        .held([0.0, 0.0], [0.0, 5.0])
+        .length([0.0, 5.7], [10.0, 5.7], "10 m")
+        .length([10.0, 5.7], [15.0, 5.7], "5 m")
+        .length([-0.7, 0.0], [-0.7, 5.0], height)
+        .note([5.0, 2.5], "clay")
+        .note([19.0, 0.8], "fixed floor")
 }

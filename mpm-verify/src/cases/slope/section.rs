@@ -1,5 +1,7 @@
 //! The section of the slope, and the particles in it.
 
+use crate::cases::prelude::*;
+
 /// Gravity (m/s²).
 pub(in crate::cases) const GRAVITY: f64 = 9.81;
 
@@ -35,12 +37,8 @@ impl Section {
 
     /// Centres (m) of the particles, `spacing` (m) apart: columns from x = 0, each from the base up.
     pub(in crate::cases) fn seed(&self, spacing: f64) -> Vec<[f64; 2]> {
-        let count = |length: f64| (length / spacing).round() as usize;
-        let coordinate = |k: usize| (k as f64 + 0.5) * spacing;
-        (0..count(self.toe()))
-            .flat_map(|i| (0..count(self.height)).map(move |j| [coordinate(i), coordinate(j)]))
-            .filter(|[x, y]| self.is_inside(*x, *y))
-            .collect()
+        let counts = [self.toe(), self.height].map(|length| (length / spacing).round() as usize);
+        by_columns(counts, spacing).filter(|[x, y]| self.is_inside(*x, *y)).collect()
     }
 }
 

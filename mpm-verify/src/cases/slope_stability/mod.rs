@@ -5,10 +5,8 @@
 
 mod run;
 
-use super::family::{implicit, pairs};
-use super::parameters::{self as common, Wall as WallTreatment};
 use super::slope::{self, ground::STABILITY};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use run::Trials;
 
 const LEVELS: [Level; 3] = [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1)];
@@ -33,7 +31,7 @@ parameters! {
         most: f64 = real("-", "3", 1.1, 100.0), "largest factor that is tried";
         trials: i32 = whole("-", "8", 1, 20), "trials: the largest factor, then bisection";
         cfl: f64 = slope::CFL;
-        wall: WallTreatment = slope::WALL;
+        wall: common::Wall = slope::WALL;
         ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
         load_steps: i32 = common::LOAD_STEPS, "quasi-static: equal steps in which the weight is raised";
         tolerance: f64 = common::TOLERANCE.with_default("1e-8");
@@ -54,46 +52,38 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "The slope of the landslide, without softening, under its weight. Its strength is divided by factors between which it first fails, \
-                      found by bisection; limit analysis gives the factor. Standard MPM locks and stands where it should fail.",
-        references: vec!["Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base at the level of the toe".to_owned()],
-        limits: &[
-            "Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.",
-            "A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.",
-        ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![
-            Wanted::new("factor-of-safety", "factor of safety against limit analysis", "limit-load").missed_by("locked"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3),
-            headline(STANDS_AT, "stands at", 1.0, 3),
-            headline(FAILS_AT, "fails at", 1.0, 3),
-            headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1),
-            headline(NEWTON_ITERATIONS, "iterations", 1.0, 0),
-        ],
-        quantities: vec![error(FACTOR_ERROR, "relative error of the factor").known_to(
-            (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
-        )],
-        watched: &["factor", "moved"],
-        sketch: slope::sketch("5 m"),
-        cost: Box::new(|spec| {
+    Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL)
+        .planned(plan())
+        .described("The slope of the landslide, without softening, under its weight. Its strength is divided by factors between which it first fails, \
+            found by bisection; limit analysis gives the factor. Standard MPM locks and stands where it should fail.")
+        .reference("Limit analysis (docs/exact.md): γH/c = 6.04 (6.015 to 6.078) for 45° on a firm base at the level of the toe")
+        .limit("Failure is a displacement of H/50 within 4 s: a slope within half a per cent of its limit is called standing.")
+        .limit("A shear band is as wide as the cells and can't come nearer to the fixed base: the slope is too strong by about h/H.")
+        .wanted("factor-of-safety", "factor of safety against limit analysis", "limit-load")
+        .missed_by("locked")
+        .checks(checks())
+        .headline(STRENGTH_REDUCTION_FACTOR, "factor (–)", 1.0, 3)
+        .headline(STANDS_AT, "stands at", 1.0, 3)
+        .headline(FAILS_AT, "fails at", 1.0, 3)
+        .headline(MOVED_STANDING, "moved, standing (mm)", 1e3, 1)
+        .headline(NEWTON_ITERATIONS, "iterations", 1.0, 0)
+        .quantity(error(FACTOR_ERROR, "relative error of the factor").known_to(
+        (STABILITY.2 - STABILITY.1) / (2.0 * STABILITY.0),
+    ))
+        .watched(&["factor", "moved"])
+        .sketch(slope::sketch("5 m"))
+        .cost(|spec| {
             let solver = if spec.scheme.rule().is_some() { 0.05 } else { 1.0 };
             solver * spec.level.h.powi(-3)
-        }),
-        tables: tables(),
-        ..Case::of::<2, Trials>("slope-stability", "Stability of the slope", ALL)
-    }
+        })
+        .tables(tables())
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let remedies = [RemedyName::None, FbarConsistent];
     let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &remedies);
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
         .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &all, "")
@@ -101,7 +91,6 @@ fn plan() -> Vec<Family> {
         .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &statics, "")
         .runs(Long, "h0.1", &statics, "")
-        .done()
 }
 
 fn checks() -> Vec<Check> {

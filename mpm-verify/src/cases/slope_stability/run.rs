@@ -2,12 +2,9 @@
 
 use super::*;
 use crate::cases::observe::{farthest, finds_equilibrium, places};
-use crate::cases::parameters::require_quotient;
 use crate::cases::slope::ground::{Ground, RISE, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
 use mpm_core::Saved;
-use mpm_core::implicit::Stabilisation;
-use mpm_core::material::Strength;
 
 /// A slope that moves by this share of its height in a trial fails.
 const FAILS: f64 = 0.02;
@@ -195,12 +192,7 @@ impl Problem<2> for Trials {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let dt = match self.setup.is_implicit() {
-            true => self.setup.look(),
-            false => self.ground.dt,
-        };
-        let ppc = self.setup.ppc_per_direction.pow(2);
-        self.setup.discretisation(2, ppc, dt)
+        self.setup.regular(2, if self.setup.is_implicit() { self.setup.look() } else { self.ground.dt })
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {

@@ -1,7 +1,6 @@
 //! Checks of the clouds. The bounds are derived in `docs/sparse.md`.
 
 use super::*;
-use crate::accuracy::fit_order;
 use crate::cases::manufactured::checks::VORTEX;
 
 /// Formal order of functions that reproduce linear fields.

@@ -6,10 +6,8 @@ mod checks;
 mod run;
 
 use super::analysis::case_of;
-use super::family::{implicit, levels, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::parameter::Domain;
-use crate::prelude::*;
 
 choices! {
     /// Arrangement of the particles.
@@ -39,38 +37,37 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]);
-    Case {
-        description: "A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
-                      where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.",
-        references: vec![
-            "Exact: the vortex of mms-vortex-box, turned by a hundredth of a radian.".to_owned(),
-            "The error of random points and what it does to a stiffness, docs/sparse.md.".to_owned(),
-        ],
-        limits: &[
-            "Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.",
-            "The motion ends within the box: half-empty cells at a free face are in thin.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![Wanted::new("displacement", "rms error of u", "error-bound").missed_by("one-a-cell beyond-bound")],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2),
-            headline(ERROR_HIGH, "nine in ten below (%)", 100.0, 2),
-            headline(STRESS_MEDIAN, "error of σ (%)", 100.0, 1),
-            headline(SOFTENING, "softening (%)", 100.0, 2),
-            headline(BROKEN, "break down (%)", 100.0, 0),
-        ],
-        watched: &["displacement_error"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-2)),
-        tables: tables(),
-        ..case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
-    }
+    case_of::<run::Clouds>("sparse", "Few particles without order", ALL)
+        .planned(plan())
+        .described("A small turn in a box, whose exact solution is known, on twenty clouds each of one to sixteen particles a cell: \
+            where particles lie anywhere, smaller cells hardly help; where one lies in each part of a cell, more particles do.")
+        .reference("Exact: the vortex of mms-vortex-box, turned by a hundredth of a radian.")
+        .reference("The error of random points and what it does to a stiffness, docs/sparse.md.")
+        .limit("Particles of equal volume, which stay where they are: no cloud here is of a motion's own making.")
+        .limit("The motion ends within the box: half-empty cells at a free face are in thin.")
+        .wanted("displacement", "rms error of u", "error-bound")
+        .missed_by("one-a-cell beyond-bound")
+        .checks(checks::checks())
+        .headline(ERROR_MEDIAN, "error of u, median (%)", 100.0, 2)
+        .headline(ERROR_HIGH, "nine in ten below (%)", 100.0, 2)
+        .headline(STRESS_MEDIAN, "error of σ (%)", 100.0, 1)
+        .headline(SOFTENING, "softening (%)", 100.0, 2)
+        .headline(BROKEN, "break down (%)", 100.0, 0)
+        .watched(&["displacement_error"])
+        .sketch(Sketch::of("A square of 1 m between slippery walls, whose middle turns.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .held([0.0, 0.0], [1.0, 0.0])
+            .held([1.0, 0.0], [1.0, 1.0])
+            .held([1.0, 1.0], [0.0, 1.0])
+            .held([0.0, 1.0], [0.0, 0.0])
+            .load([0.75, 0.4], [0.75, 0.6])
+            .load([0.25, 0.6], [0.25, 0.4])
+            .length([-0.12, 0.0], [-0.12, 1.0], "1 m"))
+        .cost(|spec| 1e-3 * spec.level.h.powi(-2))
+        .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let remedies = [RemedyName::None, FbarConsistent];
     let of = |bases: &[BasisName]| implicit(&[RuleName::QuasiStatic], bases, &remedies);
     let all = of(&[Linear, Gimp, Bspline2, Bspline3]);
@@ -83,7 +80,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let random = [two.clone(), three.clone()];
     let better = [layout("jittered", &two), layout("jittered", &three), layout("holes", &two), layout("holes", &three)];
     let sixteen = [layout("lattice", &four), four.clone(), layout("jittered", &four), layout("holes", &four)];
-    Plan::of(levels)
+    Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]))
         .runs(Quick, "n8", &splines, &two)
         .runs(Pr, "n8", &few, "")
         .runs(Pr, "n8", &few, &two)
@@ -104,23 +101,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, "n16 n32", &splines, &random)
         .each(Nightly, "n16 n32", &splines, &better)
         .each(Nightly, "n16 n32", &splines, &sixteen)
-        .done()
-}
-
-fn sketch() -> Sketch {
-    let sides = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]];
-    let mut shapes = vec![Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])];
-    let mut last = [0.0, 0.0];
-    for next in sides {
-        shapes.push(Shape::Held(last, next));
-        last = next;
-    }
-    shapes.extend([
-        Shape::Load([0.75, 0.4], [0.75, 0.6]),
-        Shape::Load([0.25, 0.6], [0.25, 0.4]),
-        Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-    ]);
-    Sketch { shapes, description: "A square of 1 m between slippery walls, whose middle turns." }
 }
 
 fn tables() -> Vec<ResultTable> {

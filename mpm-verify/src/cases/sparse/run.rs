@@ -5,14 +5,8 @@ use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
 use crate::exact::vortex_box::ENTRY;
-use crate::exact::{Exact, Material};
-use crate::parameter::Parameters;
-use crate::record::WorkDone;
-use crate::statistics::rms;
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Error as Fault, implicit};
-use std::f64::consts::PI;
+use mpm_core::explicit::Settings;
+use mpm_core::implicit;
 use std::sync::Arc;
 
 /// Largest angle of the vortex (rad): so small that particles stay where they are.
@@ -86,10 +80,7 @@ impl Analysis for Clouds {
     }
 
     fn rows(&self) -> usize {
-        match self.varies() {
-            true => self.setup.seeds,
-            false => 1,
-        }
+        if self.setup.layout == Layout::Lattice { 1 } else { self.setup.seeds }
     }
 
     fn analyse(&self, k: usize) -> Result<Cloud, Fault> {
@@ -179,11 +170,6 @@ impl Clouds {
         (0..count).filter(stays).map(place).collect()
     }
 
-    /// Whether the next cloud is another one.
-    fn varies(&self) -> bool {
-        self.setup.layout != Layout::Lattice
-    }
-
     fn particles_of(&self, k: usize) -> Result<Particles<2>, Fault> {
         let places = self.cloud(k);
         let volume = 1.0 / places.len() as f64;
@@ -205,11 +191,9 @@ impl Clouds {
         let axis = Axis::walls(0.0, self.cells());
         let grid = Grid::new(self.setup.h, [axis, axis])?;
         let ends = [(0, End::Lo), (0, End::Hi), (1, End::Lo), (1, End::Hi)];
-        let kind = WallKind::Roller;
-        let walls = ends.map(|(axis, end)| Wall { axis, end, kind });
         let scene = Scene::new(grid, Body::new(self.law, self.particles_of(k)?)?)
             .load(forcing(&self.solution))
-            .constrain_all(walls.to_vec());
+            .constrain_all(ends.map(|(axis, end)| roller(axis, end)));
         match self.setup.scheme {
             Scheme::Explicit(_) => {
                 let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());

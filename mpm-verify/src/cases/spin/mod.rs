@@ -4,10 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, other_transfers, pairs};
-use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
-use crate::parameter::Parameters;
-use crate::prelude::*;
+use super::parameters::TimeStep;
+use crate::cases::prelude::*;
 use run::{RADIUS, Spin};
 
 const LEVELS: [Level; 2] = [Level { name: "r4", h: 0.25 }, Level { name: "r8", h: 0.125 }];
@@ -30,7 +28,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 
@@ -52,41 +50,30 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
-                      energy and radius of every basis and transfer.",
-        references: vec![
-            "The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).".to_owned(),
-            "Conservation of momentum, angular momentum and energy.".to_owned(),
-        ],
-        limits: &[
-            "The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.",
-            "What FLIP takes of the angular momentum follows from no theory here: it is in the table.",
-        ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![
-            Wanted::new("rotation", "angular momentum that is left", "affine-parts-take-their-share")
-                .missed_by("flip-spins-down filters-spin-down"),
-            Wanted::new("stretch", "mean stretch of the last half", "stretch")
-                .missed_by("gimp-swells musl-swells")
-                .where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6),
-            headline(ENERGY_END, "energy at the end (%)", 100.0, 2),
-            headline(ENERGY_GAIN, "gain (%)", 100.0, 3),
-            headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1),
-            headline(PHASE_ERROR, "angle off by (%)", 100.0, 2),
-        ],
-        watched: &["angular_momentum", "rms_radius"],
-        sketch: sketch(),
-        cost: Box::new(cost),
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, Spin>("spin", "A disc that turns", ALL)
-    }
+    Case::of::<2, Spin>("spin", "A disc that turns", ALL)
+        .planned(plan())
+        .described("A free elastic disc starts in the exact state of one that turns, and turns ten or a hundred times: angular momentum, \
+            energy and radius of every basis and transfer.")
+        .reference("The rotating disc in plane strain at small strain (Timoshenko & Goodier 1951, §32).")
+        .reference("Conservation of momentum, angular momentum and energy.")
+        .limit("The exact disc is that of small strains: its stretch is off by the strain, a hundredth of it.")
+        .limit("What FLIP takes of the angular momentum follows from no theory here: it is in the table.")
+        .wanted("rotation", "angular momentum that is left", "affine-parts-take-their-share")
+        .missed_by("flip-spins-down filters-spin-down")
+        .wanted("stretch", "mean stretch of the last half", "stretch")
+        .missed_by("gimp-swells musl-swells")
+        .where_referenced()
+        .checks(checks())
+        .headline(ANGULAR_MOMENTUM_ERROR, "angular momentum off by (–)", 1.0, 6)
+        .headline(ENERGY_END, "energy at the end (%)", 100.0, 2)
+        .headline(ENERGY_GAIN, "gain (%)", 100.0, 3)
+        .headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1)
+        .headline(PHASE_ERROR, "angle off by (%)", 100.0, 2)
+        .watched(&["angular_momentum", "rms_radius"])
+        .sketch(sketch())
+        .cost(cost)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// The reason why a disc is known to break down.
@@ -111,7 +98,7 @@ fn cost(spec: &RunSpec) -> f64 {
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let mut all = pairs(&BASES, &[none]);
     all.extend(pairs(&[Gimp, Bspline2], &[FbarConsistent]));
@@ -122,7 +109,7 @@ fn plan() -> Vec<Family> {
     let lives = |scheme: &&Scheme| **scheme != Scheme::flip(Linear, none);
     let alive: Vec<Scheme> = all.iter().filter(lives).copied().collect();
     let smooth: Vec<Scheme> = all.iter().filter(|s| s.basis() != Linear).copied().collect();
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "r4", &blended[..1], "")
         .runs(Pr, "r4", &alive, "")
         .runs(Pr, "r4 r8", &alive, "turns=2")
@@ -132,24 +119,19 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "r4 r8", &smooth, "time_step=auto turns=2")
         .runs(Pr, "r4", &blended, "flip=0.99")
         .runs(Pr, "r4", &blended, "flip=0")
-        .done()
 }
 
 fn sketch() -> Sketch {
     let rim = (0..48).map(|k| {
-        let (sin, cos) = (f64::from(k) / 48.0 * std::f64::consts::TAU).sin_cos();
+        let (sin, cos) = (f64::from(k) / 48.0 * TAU).sin_cos();
         [RADIUS * cos, RADIUS * sin]
     });
-    Sketch {
-        shapes: vec![
-            Shape::Body(rim.collect()),
-            Shape::Load([RADIUS, 0.0], [RADIUS, 0.5]),
-            Shape::Load([-RADIUS, 0.0], [-RADIUS, -0.5]),
-            Shape::note([0.0, 0.0], "0.1 c at the rim"),
-            Shape::length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m"),
-        ],
-        description: "A disc of 2 m in diameter that turns about its centre and touches nothing.",
-    }
+    Sketch::of("A disc of 2 m in diameter that turns about its centre and touches nothing.")
+        .body(rim)
+        .load([RADIUS, 0.0], [RADIUS, 0.5])
+        .load([-RADIUS, 0.0], [-RADIUS, -0.5])
+        .note([0.0, 0.0], "0.1 c at the rim")
+        .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m")
 }
 
 impl Setup<Disc> {

@@ -1,12 +1,7 @@
 //! Scene and observations of the disc, twenty times a turn.
 
 use super::*;
-use mpm_core::Law;
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::material::NeoHookean;
 use nalgebra::{Matrix2, Vector2};
-use std::f64::consts::TAU;
 
 /// Radius (m), density (kg/m³), Young's modulus (Pa).
 pub(super) const RADIUS: f64 = 1.0;
@@ -73,21 +68,18 @@ impl Problem<2> for Spin {
         let h = self.setup.h;
         let reach = (RADIUS / h).ceil() + ROOM;
         let grid = Grid::new(h, [Axis::open(-reach * h, 2 * reach as usize); 2])?;
-        let size = h / self.setup.ppc_per_direction as f64;
+        let size = self.setup.pitch();
         let along = (2.0 * RADIUS / size).round() as usize;
-        let place = |k: usize| (k as f64 + 0.5) * size - RADIUS;
-        let places = (0..along * along).map(|k| [place(k / along), place(k % along)]);
+        let places = by_columns([along; 2], size).map(|x| x.map(|x| x - RADIUS));
         let places = places.filter(|[x, y]| x.hypot(*y) <= RADIUS);
-        let particles = Particles::new(self.setup.start_at(places), size * size, DENSITY, [0.5 * size; 2])?;
-        let mut particles = particles.deformed(|x| self.state(x));
+        let mut particles = self.setup.particles_at(places, size, DENSITY)?.deformed(|x| self.state(x));
         let (sin, cos) = (-0.5 * self.omega * self.dt).sin_cos();
         for (v, [x, y]) in particles.velocity.iter_mut().zip(&particles.position) {
             let earlier = [cos * x - sin * y, sin * x + cos * y];
             *v = [-self.omega * earlier[1], self.omega * earlier[0]];
         }
         let scene = Scene::new(grid, Body::new(self.law, particles)?);
-        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        self.setup.explicit(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -4,10 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, implicit, other_transfers, pairs};
-use super::parameters as common;
+use crate::cases::prelude::*;
 use crate::exact::stretched_lattice::FREE;
-use crate::prelude::*;
 use run::{SWING, Stretching};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 0.5 / FREE as f64 }];
@@ -53,47 +51,38 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
-                      the part between them is free. Where does it tear, where is its step too long, and what says so?",
-        references: vec![
-            "Exact: the homogeneous motion and the law's stress in it.".to_owned(),
-            "Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.".to_owned(),
-        ],
-        limits: &["One law, undeformed domains, one lattice of particles; in the plane crushed only."],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![
-            Wanted::new("stress", "mean stress of the stretched or crushed body", "stress-noise crushed-whole")
-                .missed_by("jumps tears-early recursion-loses"),
-            Wanted::new("end", "stretch at which the body tears or the step is too long", "tears-no-earlier stops")
-                .missed_by("jumps tears-early")
-                .where_referenced(),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(TEAR_STRETCH, "tears at (–)", 1.0, 2),
-            headline(UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2),
-            headline(PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2),
-            headline(STOPPED_STRETCH, "stops at (–)", 1.0, 2),
-            headline(PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2),
-            headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 1),
-            headline(PREDICTED_NOISE, "predicted (%)", 100.0, 1),
-            headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
-        ],
-        watched: &["stress_kept", "stress_error"],
-        sketch: sketch(),
-        cost: Box::new(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 }),
-        begin: Box::new(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
+    Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL)
+        .planned(plan())
+        .described("The ends of a body move as if it were stretched alike everywhere, to eight times its length or a twentieth of it; \
+            the part between them is free. Where does it tear, where is its step too long, and what says so?")
+        .reference("Exact: the homogeneous motion and the law's stress in it.")
+        .reference("Eigenvalues of the stiffness of the exact state, forces of its lattice: docs/stretch.md.")
+        .limit("One law, undeformed domains, one lattice of particles; in the plane crushed only.")
+        .wanted("stress", "mean stress of the stretched or crushed body", "stress-noise crushed-whole")
+        .missed_by("jumps tears-early recursion-loses")
+        .wanted("end", "stretch at which the body tears or the step is too long", "tears-no-earlier stops")
+        .missed_by("jumps tears-early")
+        .where_referenced()
+        .checks(checks())
+        .headline(TEAR_STRETCH, "tears at (–)", 1.0, 2)
+        .headline(UNSTABLE_STRETCH, "holds at least to (–)", 1.0, 2)
+        .headline(PREDICTED_TEAR_STRETCH, "neighbours part at (–)", 1.0, 2)
+        .headline(STOPPED_STRETCH, "stops at (–)", 1.0, 2)
+        .headline(PREDICTED_STOP_STRETCH, "predicted to stop at (–)", 1.0, 2)
+        .headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 1)
+        .headline(PREDICTED_NOISE, "predicted (%)", 100.0, 1)
+        .headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1)
+        .watched(&["stress_kept", "stress_error"])
+        .sketch(sketch())
+        .cost(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 })
+        .begun(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
             1 => crate::problem::begin::<1, Stretching>(spec, values),
             _ => crate::problem::begin::<2, Stretching>(spec, values),
-        }),
-        tables: tables(),
-        ..Case::of::<1, Stretching>("stretch", "A body that is stretched eightfold", ALL)
-    }
+        })
+        .tables(tables())
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let all = pairs(&BASES, &REMEDIES);
     let slow = implicit(&[RuleName::QuasiStatic], &BASES[..3], &[none, FbarConsistent]);
@@ -104,7 +93,7 @@ fn plan() -> Vec<Family> {
     // Transfers of the plane beside FLIP.
     let mut transfers = other_transfers();
     transfers.extend([Linear, Gimp].map(|basis| Scheme::explicit(basis, none, TransferName::Musl)));
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n8", &consistent, "")
         .runs(Pr, "n8", &all, "")
         .runs(Pr, "n8", &sure, "")
@@ -120,24 +109,19 @@ fn plan() -> Vec<Family> {
         .runs(Nightly, "n8", &plain, "cfl=0.7 dimension=2 end=0.2236")
         .runs(Nightly, "n8", &plain, "ppc_per_direction=4")
         .runs(Nightly, "n8", &plain, "speed=0.005")
-        .done()
 }
 
 fn sketch() -> Sketch {
     let high = 0.12;
-    let body = |from: f64, to: f64| Shape::Body(vec![[from, 0.0], [to, 0.0], [to, high], [from, high]]);
-    Sketch {
-        shapes: vec![
-            body(0.0, 1.0),
-            body(-0.5, 0.0),
-            body(1.0, 1.5),
-            Shape::Load([1.0 + 0.1, 0.5 * high], [1.0 + 0.4, 0.5 * high]),
-            Shape::Load([-0.1, 0.5 * high], [-0.4, 0.5 * high]),
-            Shape::note([0.5, 0.5 * high], "free"),
-            Shape::length([0.0, -0.08], [1.0, -0.08], "8 h"),
-        ],
-        description: "A body that is longer than eight cells; beside these its nodes move as all would.",
-    }
+    let part = |from: f64, to: f64| [[from, 0.0], [to, 0.0], [to, high], [from, high]];
+    Sketch::of("A body that is longer than eight cells; beside these its nodes move as all would.")
+        .body(part(0.0, 1.0))
+        .body(part(-0.5, 0.0))
+        .body(part(1.0, 1.5))
+        .load([1.0 + 0.1, 0.5 * high], [1.0 + 0.4, 0.5 * high])
+        .load([-0.1, 0.5 * high], [-0.4, 0.5 * high])
+        .note([0.5, 0.5 * high], "free")
+        .length([0.0, -0.08], [1.0, -0.08], "8 h")
 }
 
 impl Run<'_, Stretch> {

@@ -2,12 +2,9 @@
 
 use super::*;
 use crate::exact::stretched_lattice::Lattice;
-use crate::statistics::rms;
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::NeoHookean;
+use mpm_core::explicit::Settings;
 use mpm_core::stage::Constraint;
-use mpm_core::{Error as Fault, Frame, Law, Memoryless, implicit};
-use mpm_solvers::{Solvable, Solved};
+use mpm_core::{Frame, Memoryless, implicit};
 use nalgebra::Matrix3;
 
 /// Cells of the body beside the free part, always.

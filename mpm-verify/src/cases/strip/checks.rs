@@ -1,9 +1,7 @@
 //! The checks of the strip. Tolerances are derived in `docs/strip.md`.
 
 use super::*;
-use crate::accuracy::fit_order;
-use crate::cases::checks::{DECIDING, SAFE, finest, index, observed_order, orders_in_time};
-use std::collections::BTreeMap;
+use crate::cases::checks::{DECIDING, SAFE, finest, index, ladders_by, observed_order, orders_in_time};
 
 /// Largest contribution of finite strain, over q/G.
 const FINITE: f64 = 10.0;
@@ -92,15 +90,10 @@ fn balance_error(s: &Run<Strip>) -> f64 {
 
 /// Runs of one scheme that change the same parameters, by these in words, coarsest first, where there are at least `deciding`.
 fn ladders(records: &[Record], own: impl Fn(&Record) -> bool, deciding: usize) -> BTreeMap<String, Vec<&Record>> {
-    let mut ladders: BTreeMap<String, Vec<&Record>> = BTreeMap::new();
-    for r in records.iter().filter(|r| own(r) && r.status == Status::Ok) {
+    let mut ladders = ladders_by(records.iter().filter(|r| own(r) && r.status == Status::Ok), |r| {
         let set = if r.set.is_empty() { "own parameters".to_owned() } else { r.set.join(" ") };
-        let kind = format!("{}, {set}", r.scheme());
-        ladders.entry(kind).or_default().push(r);
-    }
-    for runs in ladders.values_mut() {
-        runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
-    }
+        format!("{}, {set}", r.scheme())
+    });
     ladders.retain(|_, runs| runs.len() >= deciding);
     ladders
 }
@@ -120,7 +113,7 @@ fn beside(r: &Record) -> Option<f64> {
     let s = Setup::<Strip>::of_record(r).ok()?;
     let known = s.reference()?;
     let uncertain = known.settlement_uncertainty / known.settlement;
-    Some(uncertain + FINITE * s.load / s.shear())
+    Some(uncertain + FINITE * s.load / s.shear_modulus())
 }
 
 /// A value of the finest three of some runs.
@@ -172,11 +165,8 @@ fn uniform(records: &[Record]) -> Vec<Finding> {
 }
 
 fn one_limit(records: &[Record]) -> Vec<Finding> {
-    let mut runs: BTreeMap<(Scheme, &str), Vec<&Record>> = BTreeMap::new();
-    for r in records.iter().filter(|r| r.status == Status::Ok && is_set_but_steps(r, CLAY)) {
-        runs.entry((r.scheme(), &*r.level)).or_default().push(r);
-    }
-    let of = |((scheme, level), runs): (&(Scheme, &str), &Vec<&Record>)| {
+    let own = records.iter().filter(|r| r.status == Status::Ok && is_set_but_steps(r, CLAY));
+    let of = |((scheme, level), runs): ((Scheme, &str), Vec<&Record>)| {
         let most = |of: &dyn Fn(&Record) -> f64| runs.iter().map(|r| of(r)).fold(0.0, f64::max);
         let least = |metric| {
             let values = runs.iter().map(|r| r.metric(metric));
@@ -190,7 +180,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
         let (range, bound) = (largest - least(LAST_LOAD), part + moved * largest);
         (runs.len() >= DECIDING).then(|| Finding::at_most(metric, range, bound, why))
     };
-    runs.iter().filter_map(of).collect()
+    ladders_by(own, |r| (r.scheme(), &*r.level)).into_iter().filter_map(of).collect()
 }
 
 fn limits(records: &[Record]) -> Vec<Finding> {

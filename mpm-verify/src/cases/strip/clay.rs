@@ -1,7 +1,6 @@
 //! The clay by itself: the limit load of undrained clay without weight, and clay in uniaxial strain that water leaves freely.
 
 use super::*;
-use std::f64::consts::PI;
 
 /// Halvings of a bracket: until no number is left between its ends.
 const HALVINGS: u32 = 200;
@@ -61,7 +60,7 @@ impl Setup<Strip> {
     fn clay_stress(&self, [v, s, flowed]: State) -> [f64; 3] {
         let p = self.effective_pressure(v);
         let hardened = self.preconsolidation * (flowed / self.plastic_compressibility).exp();
-        [p, 3.0 * self.shear() * s, hardened]
+        [p, 3.0 * self.shear_modulus() * s, hardened]
     }
 
     /// Rates by the volume strain, of which ⅔ is shear strain where only one axis shortens.
@@ -73,13 +72,13 @@ impl Setup<Strip> {
         let tiny = 1e-7;
         let [above, below] = [tiny, -tiny].map(|d| self.effective_pressure(state[0] + d));
         let bulk = (above - below) / (2.0 * tiny);
-        let stiffness = by_p * bulk + by_q * 3.0 * self.shear() * 2.0 / 3.0;
+        let stiffness = by_p * bulk + by_q * 3.0 * self.shear_modulus() * 2.0 / 3.0;
         if surface < 0.0 || stiffness <= 0.0 {
             return [1.0, 2.0 / 3.0, 0.0];
         }
         // Along the normal, and so that the surface is not left.
         let hardening = square * p * hardened / self.plastic_compressibility * by_p;
-        let flow = stiffness / (by_p * bulk * by_p + by_q * 3.0 * self.shear() * by_q + hardening);
+        let flow = stiffness / (by_p * bulk * by_p + by_q * 3.0 * self.shear_modulus() * by_q + hardening);
         [1.0 - flow * by_p, 2.0 / 3.0 - flow * by_q, flow * by_p]
     }
 

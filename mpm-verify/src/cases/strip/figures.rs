@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::cases::pictures::spacing;
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
 
 /// Shares of the load at which particles are drawn.
 const SHARES: [f64; 2] = [0.25, 0.5];

@@ -9,11 +9,8 @@ mod figures;
 mod reference;
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
 use super::poro::{ROUNDING, spaces};
-use crate::parameter::{Parameter, ParameterSet};
-use crate::prelude::*;
+use crate::cases::prelude::*;
 use crate::results::Format;
 use run::SIDE;
 
@@ -39,9 +36,6 @@ const UNIFORM: &str = "duration=1e10 half_width=5 law=cam-clay load=1e5";
 choices! {
     /// Law of the soil.
     enum Soil { Elastic = "elastic", CamClay = "cam-clay" }
-}
-
-choices! {
     /// The prescribed quantity.
     enum Control { Load = "load", Settlement = "settlement" }
 }
@@ -116,54 +110,50 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
-    Case {
-        description: "A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
-                      grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.",
-        references: vec![
-            "references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained, of a strip and of a square.".to_owned(),
-            "Prandtl's limit load (2 + π) s_u of undrained clay, with the strength of its critical state.".to_owned(),
-        ],
-        limits: &[
-            "The paper's numbers were not to be read: size, moduli, load and times are ours.",
-            "At large strain nothing is known but balances, and that pressures are smooth.",
-            "A rigid strip is held nodes, for settlements that are small against a cell.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("settlement", "settlement of the finest of three levels", "taylor-hood square"),
-            Wanted::new("limit-load", "limit load of undrained clay", "prandtl").where_referenced(),
-        ],
-        checks: checks::checks(),
-        headlines: vec![
-            headline(SETTLEMENT, "settlement (% of B)", 100.0, 3),
-            headline(SETTLEMENT_RATIO, "over that of finite elements", 1.0, 4),
-            headline(PRESSURE_ERROR, "error of p (% of q)", 100.0, 3),
-            headline(ROUGHNESS, "roughness of p (% of q)", 100.0, 3),
-            headline(LEAST_PRESSURE, "least p (% of q)", 100.0, 2),
-            headline(LAST_LOAD, "last load (kPa)", 1e-3, 2),
-            headline(LIMITING_LOAD, "limit load (kPa)", 1e-3, 2),
-            headline(UNIFORM_ERROR, "of clay in uniaxial strain, error (%)", 100.0, 4),
-            headline(NEWTON_ITERATIONS, "Newton iterations", 1.0, 0),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![value(SETTLEMENT, "settlement")],
-        watched: &["load", "settlement"],
-        sketch: sketch(),
-        cost: Box::new(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE) {
+    Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL)
+        .planned(plan())
+        .described("A strip without stiffness presses on soil full of water in plane strain, elastic or Cam clay: the surface leaves the \
+            grid's lines by half the strip's half width, and clay yields until it bears no more. Or a square on a cube of soil.")
+        .reference("references/strip_fem.py: Taylor and Hood's finite elements at small strain, of the same steps and undrained, of a strip and of a square.")
+        .reference("Prandtl's limit load (2 + π) s_u of undrained clay, with the strength of its critical state.")
+        .limit("The paper's numbers were not to be read: size, moduli, load and times are ours.")
+        .limit("At large strain nothing is known but balances, and that pressures are smooth.")
+        .limit("A rigid strip is held nodes, for settlements that are small against a cell.")
+        .wanted("settlement", "settlement of the finest of three levels", "taylor-hood square")
+        .wanted("limit-load", "limit load of undrained clay", "prandtl")
+        .where_referenced()
+        .checks(checks::checks())
+        .headline(SETTLEMENT, "settlement (% of B)", 100.0, 3)
+        .headline(SETTLEMENT_RATIO, "over that of finite elements", 1.0, 4)
+        .headline(PRESSURE_ERROR, "error of p (% of q)", 100.0, 3)
+        .headline(ROUGHNESS, "roughness of p (% of q)", 100.0, 3)
+        .headline(LEAST_PRESSURE, "least p (% of q)", 100.0, 2)
+        .headline(LAST_LOAD, "last load (kPa)", 1e-3, 2)
+        .headline(LIMITING_LOAD, "limit load (kPa)", 1e-3, 2)
+        .headline(UNIFORM_ERROR, "of clay in uniaxial strain, error (%)", 100.0, 4)
+        .headline(NEWTON_ITERATIONS, "Newton iterations", 1.0, 0)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(value(SETTLEMENT, "settlement"))
+        .watched(&["load", "settlement"])
+        .sketch(Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
+            .body([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]])
+            .held([0.0, 0.0], [5.0, 0.0])
+            .held([0.0, 0.0], [0.0, 5.0])
+            .length([0.0, -0.5], [5.0, -0.5], "5 B")
+            .note([3.2, 5.3], "drained")
+            .note([0.5, 6.0], "q")
+            .loads((0..4).map(|k| 0.125 + 0.25 * f64::from(k)), [5.7, 5.05]))
+        .cost(|spec| match spec.set.iter().any(|s| s == SQUARE_LARGE) {
             true => 0.1 * spec.level.h.powi(-6),
             false => 1e-3 * spec.level.h.powi(-3),
-        }),
-        begin: Box::new(|spec, parameters| match Strip::read(parameters)?.dimension {
+        })
+        .begun(|spec, parameters| match Strip::read(parameters)?.dimension {
             2 => crate::problem::begin::<2, Setup<Strip>>(spec, parameters),
             _ => crate::problem::begin::<3, Setup<Strip>>(spec, parameters),
-        }),
-        pictures: figures::draw,
-        tables: tables(),
-        breaks_down,
-        ..Case::of::<2, Setup<Strip>>("strip", "Flexible strip on soil full of water", ALL)
-    }
+        })
+        .pictures(figures::draw)
+        .tables(tables())
+        .breaks_down(breaks_down)
 }
 
 /// Reason why a run of this kind is known to break down: without a ghost penalty on displacements small cuts have no stiffness.
@@ -172,11 +162,11 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const EVERY: &str = "b2 b4 b8";
     let all = spaces(Gimp);
     let two_grid = &all[..1];
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "b2", two_grid, "")
         .runs(Pr, EVERY, &all, UNDRAINED)
         .runs(Pr, "b2 b4", two_grid, SMALL)
@@ -202,23 +192,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "b4", two_grid, "ghost_pressure=0")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=0.01")
         .runs(Nightly, "b4", two_grid, "ghost_displacement=1")
-        .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]]),
-        Shape::Held([0.0, 0.0], [5.0, 0.0]),
-        Shape::Held([0.0, 0.0], [0.0, 5.0]),
-        Shape::length([0.0, -0.5], [5.0, -0.5], "5 B"),
-        Shape::note([3.2, 5.3], "drained"),
-        Shape::note([0.5, 6.0], "q"),
-    ];
-    shapes.extend((0..4).map(|k| {
-        let x = 0.125 + 0.25 * f64::from(k);
-        Shape::Load([x, 5.7], [x, 5.05])
-    }));
-    Sketch { shapes, description: "Half of a flexible strip on a square of soil whose surface is drained." }
 }
 
 fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {
@@ -274,57 +247,51 @@ fn tables() -> Vec<ResultTable> {
         let titles = LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}")));
         Column::levels(titles, metric, format)
     };
-    let iterations = || Column::metric("Newton iterations", NEWTON_ITERATIONS, fixed(0));
-    let mut of_small = by_level(SETTLEMENT_RATIO, "settlement over theirs", fixed(4));
-    of_small.extend(by_level(PRESSURE_ERROR, "error of p/q", share(2)));
-    let mut of_large = by_level(SETTLEMENT, "settlement/B", fixed(4));
-    of_large.extend(by_level(ROUGHNESS, "roughness", share(3)));
-    of_large.push(Column::row("order of roughness", |runs, _| {
-        let found = order(runs.iter().copied(), ROUGHNESS.name);
-        found.map_or_else(|| "–".to_owned(), |o| o.to_string())
-    }));
-    of_large.extend(Column::levels([("b4", "p/q least")], LEAST_PRESSURE, fixed(3)));
-    of_large.extend(Column::levels([("b4", "q (kPa)")], LAST_LOAD, fixed(2).times(1e-3)));
-    let of_steps = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(4)),
-        Column::metric("last load (kPa)", LAST_LOAD, fixed(2).times(1e-3)),
-        iterations(),
-    ];
-    let of_ghosts = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(4)),
-        Column::metric("roughness", ROUGHNESS, share(3)),
-        Column::metric("p/q least", LEAST_PRESSURE, fixed(3)),
-        iterations(),
-    ];
     let of_limit = LEVELS.map(|(level, n)| {
         let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).of(move |r| r.level == level)
     });
-    let of_square = [
-        Column::metric("settlement/B", SETTLEMENT, fixed(6)),
-        Column::metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4)),
-        Column::metric("error of p/q", PRESSURE_ERROR, share(2)),
-        Column::metric("roughness", ROUGHNESS, share(3)),
-        iterations(),
-        Column::metric("entries of a matrix (10⁶)", ENTRIES, fixed(2).times(1e-6)),
-        Column::cpu(),
-    ];
     let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
     let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
     let is_of_ghosts = move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
     vec![
-        ResultTable::new("strip-small", is_small, &[WATER, SCHEME], of_small),
-        ResultTable::new("strip-large", is_large, &[SOIL, SCHEME], of_large),
-        ResultTable::new("strip-steps", is_of_steps, &[SOIL, STEPS], of_steps),
-        ResultTable::new("strip-ghosts", is_of_ghosts, &[GHOST_U, GHOST_P], of_ghosts),
+        ResultTable::of("strip-small", is_small)
+            .by(&[WATER, SCHEME])
+            .columns(by_level(SETTLEMENT_RATIO, "settlement over theirs", fixed(4)))
+            .columns(by_level(PRESSURE_ERROR, "error of p/q", share(2))),
+        ResultTable::of("strip-large", is_large)
+            .by(&[SOIL, SCHEME])
+            .columns(by_level(SETTLEMENT, "settlement/B", fixed(4)))
+            .columns(by_level(ROUGHNESS, "roughness", share(3)))
+            .column(Column::plain_order("order of roughness", ROUGHNESS))
+            .columns(Column::levels([("b4", "p/q least")], LEAST_PRESSURE, fixed(3)))
+            .columns(Column::levels([("b4", "q (kPa)")], LAST_LOAD, fixed(2).times(1e-3))),
+        ResultTable::of("strip-steps", is_of_steps)
+            .by(&[SOIL, STEPS])
+            .metric("settlement/B", SETTLEMENT, fixed(4))
+            .metric("last load (kPa)", LAST_LOAD, fixed(2).times(1e-3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
+        ResultTable::of("strip-ghosts", is_of_ghosts)
+            .by(&[GHOST_U, GHOST_P])
+            .metric("settlement/B", SETTLEMENT, fixed(4))
+            .metric("roughness", ROUGHNESS, share(3))
+            .metric("p/q least", LEAST_PRESSURE, fixed(3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
         ResultTable::new("strip-limit", is_limit, &[GIVEN, STEPS, SCHEME], of_limit),
-        ResultTable::new(
-            "strip-uniform",
-            |r| is_set_but_steps(r, UNIFORM),
-            &[STEPS],
-            [Column::metric("error of settlement", UNIFORM_ERROR, share(3))],
+        ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]).metric(
+            "error of settlement",
+            UNIFORM_ERROR,
+            share(3),
         ),
-        ResultTable::new("strip-square", |r| holds(r, |s| s.dimension == 3), &[LOADED, WATER, SCHEME, SIZE], of_square),
+        ResultTable::of("strip-square", |r| holds(r, |s| s.dimension == 3))
+            .by(&[LOADED, WATER, SCHEME, SIZE])
+            .metric("settlement/B", SETTLEMENT, fixed(6))
+            .metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4))
+            .metric("error of p/q", PRESSURE_ERROR, share(2))
+            .metric("roughness", ROUGHNESS, share(3))
+            .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0))
+            .metric("entries of a matrix (10⁶)", ENTRIES, fixed(2).times(1e-6))
+            .cpu(),
     ]
 }

@@ -1,13 +1,10 @@
 //! Derived quantities, scene and observations of half of a strip on a square of soil, or of a quarter of a square on a cube.
 
 use super::*;
-use crate::cases::parameters::require_quotient;
-use crate::cases::poro::{WATER_WEIGHT, above_rounding, matrix_entries, outflow};
-use crate::statistics::rms;
-use mpm_core::material::{CamClay, ImprovedHencky};
-use mpm_core::poro::{Conductivity, Face, Settings, Tangent, Water};
+use crate::cases::poro::{above_rounding, matrix_entries, outflow};
+use mpm_core::material::CamClay;
+use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
-use mpm_core::{Law, Part};
 use mpm_solvers::Soaked;
 use std::array::from_fn;
 
@@ -35,11 +32,6 @@ impl Setup<Strip> {
         self.young_modulus / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
     }
 
-    /// Shear modulus G (Pa) of the soil at rest.
-    pub(super) fn shear(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
     pub(super) fn is_plastic(&self) -> bool {
         self.law == Soil::CamClay
     }
@@ -55,7 +47,7 @@ impl Setup<Strip> {
     }
 
     fn elasticity(&self) -> Result<ImprovedHencky, mpm_core::Error> {
-        ImprovedHencky::new(self.bulk() * self.porosity, self.shear(), self.porosity)
+        ImprovedHencky::new(self.bulk() * self.porosity, self.shear_modulus(), self.porosity)
     }
 
     pub(super) fn clay(&self) -> Result<CamClay, mpm_core::Error> {
@@ -79,6 +71,7 @@ impl Setup<Strip> {
         self.half_width.powi(dimension as i32 - 1)
     }
 
+    /// Distance of particles (m).
     fn spacing(&self) -> f64 {
         self.h / PER_CELL as f64
     }
@@ -184,21 +177,12 @@ impl Setup<Strip> {
         axes[up] = Axis::bounded(0.0, cells(SIDE + ROOM), (Side::Wall, Side::Open));
         let grid = Grid::new(h, axes)?;
         let spacing = self.spacing();
-        let row = cells(SIDE) * PER_CELL;
-        let place = |k: usize| from_fn(|a| ((k / row.pow(a as u32) % row) as f64 + 0.5) * spacing);
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(
-            self.start_at((0..row.pow(D as u32)).map(place)),
-            spacing.powi(D as i32),
-            1000.0,
-            [0.5 * spacing; D],
-        )?;
-        let wall = |axis, end, kind| Wall { axis, end, kind };
-        let roller = |axis| [End::Lo, End::Hi].map(|end| wall(axis, end, WallKind::Roller));
+        let particles = self.particles_at(by_rows([cells(SIDE) * PER_CELL; D], spacing), spacing, 1000.0)?;
         let scene = Scene::new(grid, Body::new(law, particles)?)
-            .constrain_all([wall(up, End::Lo, WallKind::Fixed)])
-            .constrain_all((0..up).flat_map(roller));
-        let (kappa, porosity) = (self.conductivity / WATER_WEIGHT, self.porosity);
+            .constrain(clamp(up, End::Lo))
+            .constrain_all((0..up).flat_map(|axis| [End::Lo, End::Hi].map(|end| roller(axis, end))));
+        let (kappa, porosity) = (self.kappa(), self.porosity);
         // c n³/(1 − n)² is κ₀ at n₀.
         let c = kappa * (1.0 - porosity).powi(2) / porosity.powi(3);
         let surface = move |x: &[f64; D]| x[up] > SIDE - spacing;
@@ -225,7 +209,7 @@ impl Setup<Strip> {
             scene
         };
         let settings = Settings {
-            pressure_space: self.pressure_space(self.projection / (2.0 * self.shear())),
+            pressure_space: self.pressure_space(self.projection / (2.0 * self.shear_modulus())),
             tangent: Tangent::Consistent,
             tolerance: self.tolerance,
             ..Settings::new(self.step()).ghosts(self.ghost_displacement, self.ghost_pressure)
@@ -305,7 +289,7 @@ where
 
     fn new(setup: Self) -> Result<Self, Error> {
         if !setup.is_plastic() && !setup.is_driven() {
-            let strain = setup.load / (setup.bulk() + 4.0 / 3.0 * setup.shear());
+            let strain = setup.load / (setup.bulk() + 4.0 / 3.0 * setup.shear_modulus());
             let why = "where soil that stays as stiff as at rest would keep no height";
             require_quotient("load / M of young_modulus", strain, 0.0..=1.0, why)?;
         }
@@ -403,7 +387,7 @@ where
         let (ratio, largest) = self.reference().map_or((f64::NAN, f64::NAN), |s| {
             let far = self.pressure_errors::<D>(&pressures, true);
             (
-                settlement * self.half_width * self.shear() / (self.load * s.settlement),
+                settlement * self.half_width * self.shear_modulus() / (self.load * s.settlement),
                 far.fold(0.0, |a, b| b.abs().max(a)),
             )
         });

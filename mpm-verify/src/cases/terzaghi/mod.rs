@@ -4,11 +4,9 @@
 
 mod run;
 
-use super::family::levels;
-use super::parameters as common;
-use super::poro::spaces;
+use super::poro::{self, spaces};
+use crate::cases::prelude::*;
 use crate::exact::terzaghi as exact;
-use crate::prelude::*;
 use run::{FINITE, HEIGHT};
 
 const LEVELS: [(&str, f64); 5] = [("n10", 10.0), ("n20", 20.0), ("n40", 40.0), ("n80", 80.0), ("n160", 160.0)];
@@ -21,7 +19,7 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed column";
-        conductivity: f64 = real("m/s", "1e-5", 1e-12, 1.0), "hydraulic conductivity k, of water of 9810 N/m³";
+        conductivity: f64 = poro::CONDUCTIVITY;
         load: f64 = real("Pa", "10", 1e-3, 1e6),
             "load q: small, so that what is finite of its strain, q/M, is below all errors";
         steps: i32 = whole("-", "40", 1, 10_000), "steps";
@@ -29,8 +27,8 @@ parameters! {
             "time at the end over H²/c_v; of a single step with a first_step, that";
         first_step: f64 = real("-", "0", 0.0, 1e4),
             "c_v Δt/h² of the first step, with h the cells of the displacement; the others grow by a factor. 0: all equal";
-        projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
+        projection: f64 = poro::PROJECTION;
+        tolerance: f64 = poro::TOLERANCE;
     }
 }
 
@@ -50,65 +48,43 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(HEIGHT, LEVELS);
-    Case {
-        description: "A column full of water is loaded at once and drains at its top, at small strain: the exact solution is a series. \
-                      Each space of the pressure has a shortest first step below which the pressure overshoots, and by how much \
-                      is known in closed form.",
-        references: vec![
-            "Terzaghi's series, derived in the source and tested against values with fifty digits.".to_owned(),
-            "The overshoot of the first step: closed form of the discrete equations, docs/poromechanics.md.".to_owned(),
-        ],
-        limits: &[
-            "Small strain on a fixed grid: no particle crosses a cell, and linear functions and GIMP are one.",
-            "Two particles a cell: with more the projection's share of the bound is another one.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("settlement", "settlement at the end", "settlement"),
-            Wanted::new("pressure", "largest nodal pressure after the first step", "overshoot")
-                .missed_by("a-sixth-is-not-enough"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(PRESSURE_L2, "error of p (% of q)", 100.0, 4),
-            headline(PRESSURE_L2_STEPS, "of space alone (%)", 100.0, 5),
-            headline(OVERSHOOT_FIRST_STEP, "overshoot (%)", 100.0, 3),
-            headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4),
-            headline(MASS_ERROR, "water made (–)", 1.0, 10),
-            headline(ENTRIES, "entries of a matrix", 1.0, 0),
-        ],
-        quantities: vec![error(PRESSURE_L2_STEPS, "rms error of p/q in space"), error(PRESSURE_L2, "rms error of p/q")],
-        watched: &["base_pressure", "settlement"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-2)),
-        pictures,
-        tables: tables(),
-        ..Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL)
-    }
+    Case::of::<1, Setup<Terzaghi>>("terzaghi", "Consolidation of a column", ALL)
+        .planned(plan())
+        .described("A column full of water is loaded at once and drains at its top, at small strain: the exact solution is a series. \
+            Each space of the pressure has a shortest first step below which the pressure overshoots, and by how much \
+            is known in closed form.")
+        .reference("Terzaghi's series, derived in the source and tested against values with fifty digits.")
+        .reference("The overshoot of the first step: closed form of the discrete equations, docs/poromechanics.md.")
+        .limit("Small strain on a fixed grid: no particle crosses a cell, and linear functions and GIMP are one.")
+        .limit("Two particles a cell: with more the projection's share of the bound is another one.")
+        .wanted("settlement", "settlement at the end", "settlement")
+        .wanted("pressure", "largest nodal pressure after the first step", "overshoot")
+        .missed_by("a-sixth-is-not-enough")
+        .checks(checks())
+        .headline(PRESSURE_L2, "error of p (% of q)", 100.0, 4)
+        .headline(PRESSURE_L2_STEPS, "of space alone (%)", 100.0, 5)
+        .headline(OVERSHOOT_FIRST_STEP, "overshoot (%)", 100.0, 3)
+        .headline(SETTLEMENT_ERROR, "error of settlement (%)", 100.0, 4)
+        .headline(MASS_ERROR, "water made (–)", 1.0, 10)
+        .headline(ENTRIES, "entries of a matrix", 1.0, 0)
+        .quantity(error(PRESSURE_L2_STEPS, "rms error of p/q in space"))
+        .quantity(error(PRESSURE_L2, "rms error of p/q"))
+        .watched(&["base_pressure", "settlement"])
+        .sketch(Sketch::of("A column of 1 m on an impermeable floor, under a load q on its drained top.")
+            .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+            .held([0.0, 0.0], [0.3, 0.0])
+            .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
+            .note([0.15, 1.2], "q, drained")
+            .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]))
+        .cost(|spec| 1e-6 * spec.level.h.powi(-2))
+        .pictures(pictures)
+        .tables(tables())
 }
 
-fn sketch() -> Sketch {
-    let load = |x| Shape::Load([x, 1.13], [x, 1.02]);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
-            Shape::Held([0.0, 0.0], [0.3, 0.0]),
-            Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-            Shape::note([0.15, 1.2], "q, drained"),
-            load(0.05),
-            load(0.05 + 0.1),
-            load(0.05 + 0.1 * 2.0),
-        ],
-        description: "A column of 1 m on an impermeable floor, under a load q on its drained top.",
-    }
-}
-
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let (gimp, linear) = (spaces(Gimp), spaces(Linear));
     let both = [gimp, linear].concat();
-    Plan::of(levels)
+    Plan::of(levels(HEIGHT, LEVELS))
         .runs(Quick, "n10", &gimp[..1], "")
         .runs(Pr, "n10 n20 n40 n80 n160", &both, "")
         // A first step of T = 4·10⁻⁵ on 20 and on 160 cells, and eighty growing ones after it.
@@ -119,7 +95,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Pr, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Nightly, "n20", &gimp, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Pr, "n80", &linear, [5, 10, 20, 80].map(|n| format!("steps={n}")))
-        .done()
 }
 
 fn checks() -> Vec<Check> {
@@ -182,25 +157,22 @@ fn tables() -> Vec<ResultTable> {
     let cells = LEVELS.map(|(level, n)| (level, format!("n = {n}")));
     let shares = SHARES.map(|share| (share, format!("r = {share:.3}")));
     let counts = [5.0, 10.0, 20.0, 40.0, 80.0].map(|n| (n, format!("{n} steps")));
-    let mut of_cells = Column::levels(cells, PRESSURE_L2_STEPS, scientific(2));
-    of_cells.push(Column::order(PRESSURE_L2_STEPS));
-    of_cells.extend(Column::levels([("n160", "entries, n = 160")], ENTRIES, fixed(0)));
     let share = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| c.share());
     let steps = |r: &Record| Setup::<Terzaghi>::number_of(r, |c| f64::from(c.steps));
     vec![
-        ResultTable::new("terzaghi-cells", |r| r.is_default(), &[SCHEME], of_cells),
-        ResultTable::new(
-            "terzaghi-first-step",
-            move |r| r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"]),
-            &[SCHEME],
-            Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2)),
-        ),
-        ResultTable::new(
-            "terzaghi-steps",
-            |r| r.level == "n80" && r.changes_none_but(&["steps"]),
-            &[SCHEME],
-            Column::over(counts, steps, PRESSURE_L2, scientific(2)),
-        ),
+        ResultTable::of("terzaghi-cells", |r| r.is_default())
+            .by(&[SCHEME])
+            .columns(Column::levels(cells, PRESSURE_L2_STEPS, scientific(2)))
+            .column(Column::order(PRESSURE_L2_STEPS))
+            .columns(Column::levels([("n160", "entries, n = 160")], ENTRIES, fixed(0))),
+        ResultTable::of("terzaghi-first-step", move |r| {
+            r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"])
+        })
+        .by(&[SCHEME])
+        .columns(Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2))),
+        ResultTable::of("terzaghi-steps", |r| r.level == "n80" && r.changes_none_but(&["steps"]))
+            .by(&[SCHEME])
+            .columns(Column::over(counts, steps, PRESSURE_L2, scientific(2))),
     ]
 }
 

@@ -2,12 +2,9 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{ROUNDING, base_pressure, lost_volume, mass_error, matrix_entries, outflow};
 use crate::exact::terzaghi::FirstStep;
-use crate::statistics::rms;
-use mpm_core::material::Hencky;
-use mpm_core::poro::{Conductivity, Face, Settings, Water};
+use mpm_core::poro::{Face, Settings};
 
 /// Height of the column (m).
 pub(super) const HEIGHT: f64 = 1.0;
@@ -21,37 +18,14 @@ const SMALL: f64 = 1e-6;
 pub(super) const FINITE: f64 = 10.0 * SMALL;
 
 impl Setup<Terzaghi> {
-    /// Shear modulus G (Pa).
-    fn shear_modulus(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa).
-    fn modulus(&self) -> f64 {
-        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
-    }
-
-    /// κ (m²/(Pa s)).
-    fn kappa(&self) -> f64 {
-        self.conductivity / WATER_WEIGHT
-    }
-
     /// H²/c_v (s).
     fn time_scale(&self) -> f64 {
-        HEIGHT * HEIGHT / (self.kappa() * self.modulus())
+        HEIGHT * HEIGHT / (self.kappa() * self.oedometric_modulus())
     }
 
     /// q/M.
     pub(super) fn strain(&self) -> f64 {
-        self.load / self.modulus()
-    }
-
-    /// τ M of the projection; zero without one.
-    fn strength(&self) -> f64 {
-        match self.space() {
-            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
-            _ => 0.0,
-        }
+        self.load / self.oedometric_modulus()
     }
 
     /// Duration of the first step over H²/c_v, and ratio of each step to the one before.
@@ -90,7 +64,7 @@ impl Setup<Terzaghi> {
     pub(super) fn equations(&self, share: f64) -> FirstStep {
         match self.space() {
             Some(TwoGrid) => FirstStep::two_grid(share),
-            _ => FirstStep::same_cells(share, self.strength()),
+            _ => FirstStep::same_cells(share, self.projection_strength()),
         }
     }
 
@@ -111,9 +85,7 @@ impl Setup<Terzaghi> {
 
     /// Settlement over the final one.
     fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
-        let p = run.particles();
-        let volume = |of: &[f64]| of.iter().sum::<f64>();
-        (volume(&p.reference_volume) - volume(&p.volume)) * self.modulus() / (self.load * HEIGHT)
+        lost_volume(run) * self.oedometric_modulus() / (self.load * HEIGHT)
     }
 }
 
@@ -149,12 +121,10 @@ impl Problem<1> for Setup<Terzaghi> {
         let cells = (HEIGHT / self.h).round() as usize;
         let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
         let spacing = self.h / PER_CELL as f64;
-        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
         // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
+        let particles = self.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
         let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
-        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
         let (load, h) = (self.load, self.h);
         let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
         let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| [-load]);
@@ -164,7 +134,7 @@ impl Problem<1> for Setup<Terzaghi> {
         let (first, growth) = self.first_and_growth();
         let settings = Settings {
             growth,
-            pressure_space: self.pressure_space(self.strength() / self.modulus()),
+            pressure_space: self.pressure_space(self.projection_strength() / self.oedometric_modulus()),
             tolerance: self.tolerance,
             ..Settings::new(first * self.time_scale())
         };

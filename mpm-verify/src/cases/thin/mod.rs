@@ -4,12 +4,9 @@
 
 mod run;
 
-use super::family::{BASES, implicit, levels, pairs};
-use super::parameters as common;
-use crate::accuracy::fit_order;
+use crate::cases::prelude::*;
 use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
-use crate::parameter::{Parameter, number};
-use crate::prelude::*;
+use crate::parameter::number;
 
 /// Relative difference of a beam's frequency by how its sections shear.
 const SECTIONS: f64 = 2e-3;
@@ -52,47 +49,34 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(DEPTH, [("t1", 1.0), ("t2", 2.0), ("t4", 4.0)]);
-    Case {
-        description: "A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
-                      its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.",
-        references: vec![
-            "Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs."
-                .to_owned(),
-            "The bending stiffness of cells and particles, docs/thin.md.".to_owned(),
-        ],
-        limits: &[
-            "One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.",
-            "What F̄ leaves of the bending stiffness of linear functions is not foretold.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("frequency", "frequency of the first bending mode", "as-predicted")
-                .missed_by("locks two-particles average-hollows"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4),
-            headline(PREDICTED_RATIO, "predicted (–)", 1.0, 4),
-            headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3),
-            headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3),
-        ],
-        watched: &["deflection"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-3)),
-        tables: tables(),
-        breaks_down: |r| {
+    Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL)
+        .planned(plan())
+        .described("A free beam, twenty times as long as it is deep, swings in its first mode, one, two or four cells over its depth: \
+            its frequency against Timoshenko's, and against that of the stiffness that cells and particles leave.")
+        .reference("Timoshenko's free beam in plane strain, first symmetric mode: solved in src/cases/thin/theory.rs.")
+        .reference("The bending stiffness of cells and particles, docs/thin.md.")
+        .limit("One slenderness, small deflection, no clamp: that of cantilever is a singular place of its own.")
+        .limit("What F̄ leaves of the bending stiffness of linear functions is not foretold.")
+        .wanted("frequency", "frequency of the first bending mode", "as-predicted")
+        .missed_by("locks two-particles average-hollows")
+        .checks(checks())
+        .headline(FREQUENCY_RATIO, "frequency over exact (–)", 1.0, 4)
+        .headline(PREDICTED_RATIO, "predicted (–)", 1.0, 4)
+        .headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3)
+        .headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3)
+        .watched(&["deflection"])
+        .sketch(sketch())
+        .cost(|spec| 1e-6 * spec.level.h.powi(-3))
+        .tables(tables())
+        .breaks_down(|r| {
             let beam = Setup::<Thin>::of_record(r).ok()?;
             let is_singular = beam.rule() == Some(RuleName::Midpoint) && beam.basis() == Gimp && beam.lumped == 0.0;
             is_singular
                 .then_some("domains at a face share too little of their outermost functions for a consistent mass")
-        },
-        ..Case::of::<2, run::Swing>("thin", "A beam of few cells", ALL)
-    }
+        })
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     let plain = [RemedyName::None];
     let both = [RemedyName::None, FbarConsistent];
     let of = |rule, bases: &[BasisName]| implicit(&[rule], bases, &plain);
@@ -100,7 +84,7 @@ fn plan(levels: &[Level]) -> Vec<Family> {
     let linear = of(RuleName::Midpoint, &[Linear]);
     let splines = of(RuleName::Midpoint, &[Bspline2]);
     let consistent = "cfl=5 lumped=0";
-    Plan::of(levels)
+    Plan::of(levels(DEPTH, [("t1", 1.0), ("t2", 2.0), ("t4", 4.0)]))
         .runs(Quick, "t1", &few[2..3], "")
         .runs(Pr, "t1 t2", &few, "")
         .runs(Pr, "t1", &few, "poisson_ratio=0.49")
@@ -118,22 +102,17 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Nightly, "t2 t4", &splines, consistent)
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]), "cfl=5")
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]), "cfl=5")
-        .done()
 }
 
 fn sketch() -> Sketch {
     let (end, top) = (HALF, DEPTH);
-    Sketch {
-        shapes: vec![
-            Shape::Body(vec![[0.0, 0.0], [end, 0.0], [end, top], [0.0, top]]),
-            Shape::Held([0.0, 0.0], [0.0, top]),
-            Shape::Load([0.1, 0.25], [0.1, 0.15]),
-            Shape::Load([0.95, 0.15], [0.95, 0.25]),
-            Shape::length([0.0, -0.08], [end, -0.08], "1 m, half of it"),
-            Shape::length([1.1, 0.0], [1.1, top], "0.1 m"),
-        ],
-        description: "Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.",
-    }
+    Sketch::of("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.")
+        .body([[0.0, 0.0], [end, 0.0], [end, top], [0.0, top]])
+        .held([0.0, 0.0], [0.0, top])
+        .load([0.1, 0.25], [0.1, 0.15])
+        .load([0.95, 0.15], [0.95, 0.25])
+        .length([0.0, -0.08], [end, -0.08], "1 m, half of it")
+        .length([1.1, 0.0], [1.1, top], "0.1 m")
 }
 
 type Beam<'a> = Run<'a, Thin>;

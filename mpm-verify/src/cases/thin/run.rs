@@ -2,10 +2,6 @@
 
 use super::*;
 use crate::exact::free_beam::{Beam, Mode, stiffness};
-use crate::statistics::fit_line;
-use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::{Law, NeoHookean};
-use std::f64::consts::TAU;
 
 /// Young's modulus (Pa) and density (kg/m³).
 const YOUNG_MODULUS: f64 = 1e6;
@@ -70,7 +66,7 @@ impl Problem<2> for Swing {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -83,31 +79,17 @@ impl Problem<2> for Swing {
                 Axis::open(-h * ROOM as f64, cells(DEPTH) + 2 * ROOM),
             ],
         )?;
-        let spacing = h / self.setup.ppc_per_direction as f64;
-        let [along, across] = [HALF, DEPTH].map(|l| (l / spacing).round() as usize);
-        let foot = h * self.setup.shift;
-        let place = |k: usize| {
-            let at = [k % along, k / along].map(|i| (i as f64 + 0.5) * spacing);
-            [at[0], foot + at[1]]
-        };
-        let places = (0..along * across).map(place);
-        let mut particles =
-            Particles::new(self.setup.start_at(places), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let (spacing, foot) = (self.setup.pitch(), h * self.setup.shift);
+        let counts = [HALF, DEPTH].map(|l| (l / spacing).round() as usize);
+        let places = by_rows(counts, spacing).map(|[x, y]| [x, foot + y]);
+        let mut particles = self.setup.particles_at(places, spacing, DENSITY)?;
         let speed = DEFLECTION * self.mode.frequency;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             let above = x[1] - foot - 0.5 * DEPTH;
             *v = [-speed * above * self.mode.turn(x[0]), speed * self.mode.deflection(x[0])];
         }
-        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(Wall {
-            axis: 0,
-            end: End::Lo,
-            kind: WallKind::Roller,
-        });
-        if let Some(settings) = self.setup.implicit_settings(self.dt) {
-            return mpm_solvers::implicit(self.setup.scheme, scene, settings);
-        }
-        let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(roller(0, End::Lo));
+        self.setup.moving(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -4,9 +4,8 @@
 
 mod run;
 
-use super::family::{BASES, REMEDIES, other_transfers, pairs};
-use super::parameters::{self as common, TimeStep, Wall as WallTreatment};
-use crate::prelude::*;
+use super::parameters::TimeStep;
+use crate::cases::prelude::*;
 use run::{PERIOD, Translation};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
@@ -30,7 +29,7 @@ parameters! {
         flip: f64 = common::FLIP;
         ppc_per_direction: usize = common::PPC_PER_DIRECTION, "particles per cell across the motion";
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        wall: WallTreatment = common::WALL;
+        wall: common::Wall = common::WALL;
     }
 }
 
@@ -52,65 +51,46 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case {
-        description: "A body under a uniform stress fills a periodic grid on a lattice that doesn't fit the cells and moves through a \
-                      hundred of them: exactly, nothing changes. What does is the noise of crossing, basis by basis.",
-        references: vec![
-            "Exact: translation keeps a uniform stress.".to_owned(),
-            "The forces of a lattice under a uniform stress and the stiffness that they meet, docs/translate.md."
-                .to_owned(),
-        ],
-        limits: &[
-            "One lattice, seven particles to four cells along the motion: another has other waves.",
-            "What is foretold is of particles at rest relative to each other and small noise.",
-        ],
-        plan: plan(),
-        levels: LEVELS.to_vec(),
-        wanted: vec![Wanted::new(
-            "stress",
-            "noise of the stress that is carried along",
-            "domains-that-tile-are-silent noise",
-        )],
-        checks: checks(),
-        headlines: vec![
-            headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 3),
-            headline(STRESS_NOISE_MEAN, "mean (%)", 100.0, 3),
-            headline(PREDICTED_NOISE, "predicted (%)", 100.0, 3),
-            headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1),
-            headline(VELOCITY_NOISE, "of the velocity (%)", 100.0, 3),
-            headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5),
-        ],
-        watched: &["stress_kept", "stress_noise"],
-        sketch: Sketch {
-            shapes: vec![
-                Shape::Body(vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]]),
-                Shape::Load([0.35, 0.25], [0.65, 0.25]),
-                Shape::note([0.5, 0.38], "0.05 c"),
-                Shape::length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"),
-            ],
-            description: "A body that fills a periodic grid of 8 by 4 cells and moves along it.",
-        },
-        cost: Box::new(|_| 0.2),
-        tables: tables(),
-        ..Case::of::<2, Translation>("translate", "A stress that crosses a hundred cells", ALL)
-    }
+    Case::of::<2, Translation>("translate", "A stress that crosses a hundred cells", ALL)
+        .planned(plan())
+        .described("A body under a uniform stress fills a periodic grid on a lattice that doesn't fit the cells and moves through a \
+            hundred of them: exactly, nothing changes. What does is the noise of crossing, basis by basis.")
+        .reference("Exact: translation keeps a uniform stress.")
+        .reference("The forces of a lattice under a uniform stress and the stiffness that they meet, docs/translate.md.")
+        .limit("One lattice, seven particles to four cells along the motion: another has other waves.")
+        .limit("What is foretold is of particles at rest relative to each other and small noise.")
+        .wanted("stress", "noise of the stress that is carried along", "domains-that-tile-are-silent noise")
+        .checks(checks())
+        .headline(STRESS_NOISE, "noise of the stress (%)", 100.0, 3)
+        .headline(STRESS_NOISE_MEAN, "mean (%)", 100.0, 3)
+        .headline(PREDICTED_NOISE, "predicted (%)", 100.0, 3)
+        .headline(STRESS_KEPT, "mean stress kept (%)", 100.0, 1)
+        .headline(VELOCITY_NOISE, "of the velocity (%)", 100.0, 3)
+        .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
+        .watched(&["stress_kept", "stress_noise"])
+        .sketch(Sketch::of("A body that fills a periodic grid of 8 by 4 cells and moves along it.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]])
+            .load([0.35, 0.25], [0.65, 0.25])
+            .note([0.5, 0.38], "0.05 c")
+            .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"))
+        .cost(|_| 0.2)
+        .tables(tables())
 }
 
-fn plan() -> Vec<Family> {
+fn plan() -> Plan {
     let none = RemedyName::None;
     let mut all = pairs(&BASES, &REMEDIES);
     all.extend(other_transfers());
     all.extend([Linear, Gimp].map(|b| Scheme::explicit(b, none, TransferName::Musl)));
     let plain = pairs(&BASES, &[none]);
     let offered = pairs(&BASES[1..], &[none, FbarConsistent]);
-    Plan::of(&LEVELS)
+    Plan::of(LEVELS)
         .runs(Quick, "n8", &plain[1..2], "cells=10")
         .runs(Pr, "n8", &all, "")
         .runs(Pr, "n8", &plain, "stretch=1.02")
         .runs(Nightly, "n8", &all, "stretch=1.02")
         .runs(Nightly, "n8", &all, "speed=0.1")
         .runs(Nightly, "n8", &offered, "time_step=auto")
-        .done()
 }
 
 impl Setup<Translate> {

@@ -2,13 +2,7 @@
 
 use super::*;
 use crate::exact::lattice::{force, symbol, transform};
-use crate::statistics::rms;
-use mpm_core::Law;
-use mpm_core::explicit::courant_time_step;
-use mpm_core::explicit::transfer::Flip;
-use mpm_core::material::NeoHookean;
 use nalgebra::{Matrix2, Matrix3};
-use std::f64::consts::TAU;
 
 /// Cells of a period along the motion and across it.
 pub(super) const PERIOD: usize = 8;
@@ -114,8 +108,7 @@ impl Problem<2> for Translation {
             .deformed(|x| (*x, Matrix2::identity() * stretch));
         particles.velocity.fill([self.speed, 0.0]);
         let scene = Scene::new(grid, Body::new(self.law, particles)?);
-        let settings = self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(self.setup.flip)?);
-        mpm_solvers::solver(self.setup.scheme, scene, settings)
+        self.setup.explicit(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -5,25 +5,16 @@
 mod run;
 
 use super::analysis::case_of;
-use super::checks::{finest, observed_order};
-use super::family::levels;
-use crate::parameter::Parameter;
-use crate::prelude::*;
-use std::collections::BTreeMap;
+use super::checks::{finest, ladders_by, observed_order};
+use crate::cases::prelude::*;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
 
 choices! {
     /// Shape of the body.
     enum Domain { Square = "square", Ellipse = "ellipse" }
-}
-
-choices! {
     /// Places of the particles' domains.
     enum Layout { Aligned = "aligned", Across = "across" }
-}
-
-choices! {
     /// Functions of the pressure.
     enum PressureFunctions { Same = "same", Linear = "linear" }
 }
@@ -59,50 +50,37 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    let levels = levels(1.0, LEVELS);
-    Case {
-        description: "Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
-                      order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.",
-        references: vec![
-            "Theory: a stable pair has an inf–sup number above a bound that no mesh changes; bilinear functions of equal order have none.".to_owned(),
-            "Exact motion without change of volume, and its pressure, in closed form.".to_owned(),
-        ],
-        limits: &[
-            "Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.",
-            "Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.",
-        ],
-        plan: plan(&levels),
-        levels,
-        wanted: vec![
-            Wanted::new("pressure-modes", "number of pressures without an effect", "one-constant").missed_by("equal-order-has-checkerboards equal-order-loses-the-pressure"),
-        ],
-        checks: checks(),
-        headlines: vec![
-            headline(INF_SUP, "β", 1.0, 4),
-            headline(ZERO_MODES, "pressures without effect", 1.0, 0),
-            headline(DISPLACEMENT_ERROR, "error of u (%)", 100.0, 3),
-            headline(PRESSURE_ERROR, "error of p (%)", 100.0, 2),
-            headline(CHECKERBOARD_RATIO, "checkerboard (%)", 100.0, 2),
-            headline(PRESSURES, "pressures", 1.0, 0),
-        ],
-        quantities: vec![
-            error(DISPLACEMENT_ERROR, "error of the displacement"),
-            error(PRESSURE_ERROR, "error of the pressure"),
-        ],
-        watched: &["inf_sup"],
-        sketch: sketch(),
-        cost: Box::new(|spec| 1e-6 * spec.level.h.powi(-4)),
-        tables: tables(),
-        ..case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL)
-    }
+    case_of::<run::Body>("undrained", "Spaces of displacement and pressure where no water flows", ALL)
+        .planned(plan())
+        .described("Chapelle and Bathe's number of each pair of spaces on three meshes: of one that is stable it has a bound, of equal \
+            order it falls with the cells. And the motion of a body that keeps its volume, against an exact one.")
+        .reference("Theory: a stable pair has an inf–sup number above a bound that no mesh changes; bilinear functions of equal order have none.")
+        .reference("Exact motion without change of volume, and its pressure, in closed form.")
+        .limit("Matrices of an undeformed body at small strain, of the solver's functions and ghost penalties but assembled here: no step is taken.")
+        .limit("Norms are sums over the particles, exact integrals of linear functions and GIMP on the square alone.")
+        .wanted("pressure-modes", "number of pressures without an effect", "one-constant")
+        .missed_by("equal-order-has-checkerboards equal-order-loses-the-pressure")
+        .checks(checks())
+        .headline(INF_SUP, "β", 1.0, 4)
+        .headline(ZERO_MODES, "pressures without effect", 1.0, 0)
+        .headline(DISPLACEMENT_ERROR, "error of u (%)", 100.0, 3)
+        .headline(PRESSURE_ERROR, "error of p (%)", 100.0, 2)
+        .headline(CHECKERBOARD_RATIO, "checkerboard (%)", 100.0, 2)
+        .headline(PRESSURES, "pressures", 1.0, 0)
+        .quantity(error(DISPLACEMENT_ERROR, "error of the displacement"))
+        .quantity(error(PRESSURE_ERROR, "error of the pressure"))
+        .watched(&["inf_sup"])
+        .sketch(sketch())
+        .cost(|spec| 1e-6 * spec.level.h.powi(-4))
+        .tables(tables())
 }
 
-fn plan(levels: &[Level]) -> Vec<Family> {
+fn plan() -> Plan {
     const EVERY: &str = "n8 n16 n32";
     let stable = [Gimp, Linear, Bspline2].map(|basis| Scheme::poro(basis, TwoGrid));
     let equal = [Gimp, Linear].map(|basis| Scheme::poro(basis, Equal));
     let (gimp, equal_gimp) = (&stable[..1], &equal[..1]);
-    Plan::of(levels)
+    Plan::of(levels(1.0, LEVELS))
         .runs(Quick, "n8", gimp, "")
         .runs(Pr, EVERY, &stable, "")
         .runs(Pr, "n8 n16", &equal, "")
@@ -115,30 +93,24 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .runs(Pr, EVERY, &stable[2..], "pressure_functions=linear")
         .runs(Nightly, EVERY, &equal, "")
         .runs(Nightly, EVERY, equal_gimp, "layout=across")
-        .done()
 }
 
 fn sketch() -> Sketch {
     let arc = (0..=24).map(|k| {
-        let angle = std::f64::consts::PI * f64::from(k) / 24.0;
+        let angle = PI * f64::from(k) / 24.0;
         [1.763 + 0.437 * angle.cos(), 0.611 * angle.sin()]
     });
-    let square = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    Sketch {
-        shapes: vec![
-            Shape::Body(square),
-            Shape::Body(arc.collect()),
-            Shape::Held([0.0, 0.0], [1.0, 0.0]),
-            Shape::Held([1.0, 0.0], [1.0, 1.0]),
-            Shape::Held([1.0, 1.0], [0.0, 1.0]),
-            Shape::Held([0.0, 1.0], [0.0, 0.0]),
-            Shape::Held([1.326, 0.0], [2.2, 0.0]),
-            Shape::length([-0.12, 0.0], [-0.12, 1.0], "1 m"),
-            Shape::note([0.5, 0.5], "square"),
-            Shape::note([1.763, 0.25], "ellipse"),
-        ],
-        description: "A square of 1 m that is held all around, and half an ellipse that is held at its straight side.",
-    }
+    Sketch::of("A square of 1 m that is held all around, and half an ellipse that is held at its straight side.")
+        .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .body(arc)
+        .held([0.0, 0.0], [1.0, 0.0])
+        .held([1.0, 0.0], [1.0, 1.0])
+        .held([1.0, 1.0], [0.0, 1.0])
+        .held([0.0, 1.0], [0.0, 0.0])
+        .held([1.326, 0.0], [2.2, 0.0])
+        .length([-0.12, 0.0], [-0.12, 1.0], "1 m")
+        .note([0.5, 0.5], "square")
+        .note([1.763, 0.25], "ellipse")
 }
 
 /// The bounds are derived in `docs/undrained.md`.
@@ -187,12 +159,8 @@ fn at_least(records: &[Record], metric: Metric, space: SpaceName, (formal, why):
 
 /// The order of a metric over three levels, for every scheme and every body.
 fn orders(records: &[Record], metric: Metric, own: impl Fn(&Setup<Undrained>) -> bool) -> Vec<(String, f64)> {
-    let mut ladders: BTreeMap<(Scheme, &[String]), Vec<&Record>> = BTreeMap::new();
-    for r in records.iter().filter(|r| Setup::holds(r, &own)) {
-        ladders.entry((r.scheme(), &r.set)).or_default().push(r);
-    }
-    let of = |((scheme, set), mut runs): ((Scheme, &[String]), Vec<&Record>)| {
-        runs.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+    let ladders = ladders_by(records.iter().filter(|r| Setup::holds(r, &own)), |r| (r.scheme(), &r.set));
+    let of = |((scheme, set), runs): ((Scheme, &Vec<String>), Vec<&Record>)| {
         let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
         let name = format!("order of {} of {scheme} {}", metric.name, set.join(" "));
         Some((name.trim_end().to_owned(), order))
@@ -206,10 +174,11 @@ fn tables() -> Vec<ResultTable> {
         Column::levels(titles, metric, format)
     };
     let numbers = |name: &str, shows: fn(&Record) -> bool| {
-        let mut columns = by_level("β", INF_SUP, fixed(4));
-        columns.push(Column::order(INF_SUP).titled("order in h (between levels)"));
-        columns.extend(Column::levels([("n16", "without effect, n = 16")], ZERO_MODES, fixed(0)));
-        ResultTable::new(name, shows, &[SCHEME], columns)
+        ResultTable::of(name, shows)
+            .by(&[SCHEME])
+            .columns(by_level("β", INF_SUP, fixed(4)))
+            .column(Column::order(INF_SUP).titled("order in h (between levels)"))
+            .columns(Column::levels([("n16", "without effect, n = 16")], ZERO_MODES, fixed(0)))
     };
     let errors = [
         by_level("u", DISPLACEMENT_ERROR, share(2)),

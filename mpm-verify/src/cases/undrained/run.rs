@@ -3,13 +3,10 @@
 use super::*;
 use crate::cases::analysis::{Analysis, visited};
 use crate::cases::forms::{self, Cloud, coarse, eigenvalues};
-use crate::record::WorkDone;
-use crate::statistics::rms;
 use mpm_core::Lattice;
 use mpm_core::basis::{self, QuadraticBSpline};
 use mpm_core::implicit::{Interpolation, OfHats};
 use nalgebra::{DMatrix, DVector};
-use std::f64::consts::PI;
 
 type Hats = Lattice<2, 2, basis::Linear>;
 type Means = Lattice<2, 3, basis::Gimp>;

@@ -1,8 +1,6 @@
 //! Ground, and strengths that fall at once or by rows.
 
 use super::*;
-use crate::job::Job;
-use crate::parameter::Parameters;
 use crate::problem::Driver;
 use mpm_core::Memory;
 

@@ -2,9 +2,9 @@
 
 use super::Wave;
 use crate::cases::parameters::{POISSON_RATIO, PPC_PER_DIRECTION, STEP_SCALING, UNSEEN, WALL, WALL_LINE};
+use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, DIMENSION};
 use crate::exact::vortex_pressure::PRESSURE;
-use crate::prelude::*;
 
 /// Order of a method that reproduces linear fields.
 pub(super) const FORMAL: f64 = 2.0;

@@ -3,7 +3,7 @@
 use super::{Gate, is_beyond_unseen, is_sound};
 use crate::cases::manufactured::metrics::DISPLACEMENT_L2;
 use crate::cases::parameters::POISSON_RATIO;
-use crate::prelude::*;
+use crate::cases::prelude::*;
 
 /// Largest error at a Poisson's ratio over that at 0.3 that counts as free of locking, and the least
 /// that counts as locked.
@@ -13,8 +13,7 @@ const LOCKED: f64 = 1.5;
 const COMPRESSIBLE: f64 = 0.3;
 
 /// Errors over the distance from incompressibility.
-pub(in crate::cases) const LOCKING_CURVE: Sweep =
-    Sweep { parameter: POISSON_RATIO, label: "0.5 − ν", abscissa: |nu| 0.5 - nu, logarithmic: true };
+pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep::of(POISSON_RATIO, "0.5 − ν").over(|nu| 0.5 - nu).logarithmic();
 
 /// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {

@@ -4,8 +4,7 @@ use super::{Gate, STALLED};
 use crate::accuracy::richardson;
 use crate::cases::manufactured::metrics::DISPLACEMENT_RATIO;
 use crate::cases::parameters::{CFL, LUMPED};
-use crate::prelude::*;
-use std::collections::BTreeMap;
+use crate::cases::prelude::*;
 
 /// Order in time of symplectic Euler with F updated by I + Δt ∇v.
 const EXPLICIT: f64 = 1.0;

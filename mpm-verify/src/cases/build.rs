@@ -1,0 +1,95 @@
+//! Parts of scenes that several problems share: particles on a lattice, walls, and the solver of the scheme.
+
+use super::parameters as common;
+use crate::prelude::*;
+
+impl<P: ParameterSet> Setup<P> {
+    /// Distance of particles (m), by the parameter `ppc_per_direction`.
+    pub(super) fn pitch(&self) -> f64 {
+        self.h / self.values.number(common::PPC_PER_DIRECTION)
+    }
+
+    /// The discretisation in `dim` dimensions with that number of particles in every direction, and steps of `dt` (s).
+    pub(super) fn regular(&self, dim: usize, dt: f64) -> Discretisation {
+        let per_direction = self.values.number(common::PPC_PER_DIRECTION) as usize;
+        self.discretisation(dim, per_direction.pow(dim as u32), dt)
+    }
+
+    /// Particles at these places (m), `spacing` (m) apart, of a density (kg/m³).
+    ///
+    /// # Errors
+    /// There are none, or a number is out of range.
+    pub(super) fn particles_at<const D: usize>(
+        &self,
+        places: impl IntoIterator<Item = [f64; D]>,
+        spacing: f64,
+        density: f64,
+    ) -> Result<Particles<D>, Fault> {
+        Particles::new(self.start_at(places), spacing.powi(D as i32), density, [0.5 * spacing; D])
+    }
+
+    /// The explicit solver of a scene, in steps of `dt` (s), with a factor of local damping, and the share of FLIP that the
+    /// parameter `flip` sets.
+    ///
+    /// # Errors
+    /// Another scheme; a parameter out of range.
+    pub(super) fn explicit<const D: usize, M: Solvable<D>>(
+        &self,
+        scene: Scene<D, M>,
+        dt: f64,
+        damping: f64,
+    ) -> Result<Box<dyn Simulation<D>>, Fault> {
+        let settings = self.settings(dt, damping)?;
+        let share = self.values.number(common::FLIP);
+        let settings = if share.is_nan() { settings } else { settings.transfer(Flip::new(share)?) };
+        mpm_solvers::solver(self.scheme, scene, settings)
+    }
+
+    /// The solver of a scheme of bodies that move, explicit or implicit: see [`Self::explicit`].
+    ///
+    /// # Errors
+    /// Another scheme; a parameter out of range.
+    pub(super) fn moving<const D: usize, M: Solvable<D> + Solved<D>>(
+        &self,
+        scene: Scene<D, M>,
+        dt: f64,
+        damping: f64,
+    ) -> Result<Box<dyn Simulation<D>>, Fault> {
+        match self.implicit_settings(dt) {
+            Some(settings) => mpm_solvers::implicit(self.scheme, scene, settings),
+            None => self.explicit(scene, dt, damping),
+        }
+    }
+}
+
+/// Places (m) of a lattice of `counts` places along the axes, `spacing` (m) apart, the first at half of it; the first axis
+/// runs fastest.
+pub(super) fn by_rows<const D: usize>(counts: [usize; D], spacing: f64) -> impl Iterator<Item = [f64; D]> {
+    let place = move |mut k: usize| {
+        counts.map(|count| {
+            let at = k % count;
+            k /= count;
+            (at as f64 + 0.5) * spacing
+        })
+    };
+    (0..counts.iter().product()).map(place)
+}
+
+/// The same with the last axis running fastest.
+pub(super) fn by_columns<const D: usize>(mut counts: [usize; D], spacing: f64) -> impl Iterator<Item = [f64; D]> {
+    counts.reverse();
+    by_rows(counts, spacing).map(|mut x| {
+        x.reverse();
+        x
+    })
+}
+
+/// A wall on which material sticks.
+pub(super) fn clamp(axis: usize, end: End) -> Wall {
+    Wall { axis, end, kind: WallKind::Fixed }
+}
+
+/// A wall along which material slides.
+pub(super) fn roller(axis: usize, end: End) -> Wall {
+    Wall { axis, end, kind: WallKind::Roller }
+}
