@@ -15,7 +15,7 @@ pub(crate) const SLACK: f64 = 0.15;
 /// Number of finest levels or steps that decide an order.
 const DECIDING: usize = 3;
 
-/// What a check may hold for as long as it is there.
+/// A closure that a check holds, on any thread.
 pub(crate) trait Held: Send + Sync + 'static {}
 impl<T: Send + Sync + 'static> Held for T {}
 

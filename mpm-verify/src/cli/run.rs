@@ -85,7 +85,7 @@ impl Run {
     }
 }
 
-/// Where a run goes, what it may take, and how much of it is told.
+/// Folder, threads and memory of a run, and its verbosity.
 #[derive(Args)]
 pub(crate) struct Making {
     /// Output folder for record, series, particles, VTU and pictures

@@ -17,12 +17,12 @@ const PICTURES: &str = include_str!("../../assets/together.toml");
 struct Pictures {
     /// Schemes that are shown together, by a name.
     schemes: BTreeMap<String, Vec<String>>,
-    picture: Vec<Of>,
+    picture: Vec<PictureOf>,
 }
 
 /// A picture, by its name without an ending.
 #[derive(Deserialize)]
-struct Of {
+struct PictureOf {
     name: String,
     panel: Vec<Plot>,
 }
@@ -67,7 +67,7 @@ impl Pictures {
 /// A picture can't be written.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let Pictures { schemes, picture } = Pictures::read()?;
-    for Of { name, panel } in picture {
+    for PictureOf { name, panel } in picture {
         let panels = panel.iter().map(|plot| plot.panel(&schemes, gallery.records));
         let panels = panels.collect::<Result<Vec<_>, Error>>()?;
         Figure::new(name, "", panels).whole().draw(gallery)?;

@@ -67,7 +67,7 @@ impl Values {
     }
 }
 
-/// A metric of a run, its processor time (s), its number of steps, or the time (s) of its breakdown; NaN if there is none.
+/// A metric of a run, its processor time (s), its number of steps, or the time (s) of its breakdown; NaN without one.
 pub(super) fn quantity(record: &Record, name: &str) -> f64 {
     match name {
         "cpu_s" => record.time.cpu_s,
