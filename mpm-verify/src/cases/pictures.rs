@@ -75,11 +75,58 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     pub(super) fn hang(&mut self, name: &str, caption: impl Into<String>) {
         self.gallery.hang(&format!("{name}.png"), caption);
     }
+}
 
-    /// Draws panels of fields.
-    pub(super) fn fields(&mut self, name: &str, figure: &FieldFigure, caption: impl Into<String>) -> Result<(), Error> {
-        draw_fields(&self.place(name), figure)?;
-        self.hang(name, caption);
+/// A column of particles as a panel, without an outline.
+pub(super) fn field_panel(record: &Record, table: &Table, title: impl Into<String>, column: &str) -> FieldPanel {
+    FieldPanel {
+        title: title.into(),
+        points: table.points("x", "y"),
+        values: table.column(column).to_vec(),
+        size: spacing(record),
+        outline: Vec::new(),
+    }
+}
+
+/// Panels of particle fields in one picture.
+pub(super) struct Fields(pub(super) FieldFigure);
+
+impl Fields {
+    /// At most two in a row, by label and range of the colour scale.
+    pub(super) fn new(panels: Vec<FieldPanel>, label: &str, range: (f64, f64)) -> Self {
+        let (title, label) = (String::new(), label.to_owned());
+        Self(FieldFigure { title, panels, columns: 2, range, label, window: None })
+    }
+
+    /// With a title above the panels.
+    pub(super) fn titled(mut self, title: String) -> Self {
+        self.0.title = title;
+        self
+    }
+
+    /// At most this number in a row.
+    pub(super) fn columns(mut self, columns: usize) -> Self {
+        self.0.columns = columns;
+        self
+    }
+
+    /// In these ranges of x and y (m).
+    pub(super) fn within(mut self, window: ((f64, f64), (f64, f64))) -> Self {
+        self.0.window = Some(window);
+        self
+    }
+
+    /// Draws and hangs the picture `NAME.png`, if there is a panel.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub(super) fn draw(self, gallery: &mut Gallery, name: &str, caption: impl Into<String>) -> Result<(), Error> {
+        if self.0.panels.is_empty() {
+            return Ok(());
+        }
+        let file = format!("{name}.png");
+        draw_fields(&gallery.place(&file), &self.0)?;
+        gallery.hang(&file, caption);
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! Figures of the cantilever, after those of the paper.
 
 use super::*;
+use crate::cases::pictures::{Fields, field_panel};
 
 /// Range of σ_xx that is drawn (Pa).
 const STRESS_RANGE: f64 = 4e4;
@@ -27,27 +28,13 @@ fn beams(gallery: &mut Gallery) -> Result<(), Error> {
             return Ok(());
         };
         let table = gallery.table(record, "particles.csv")?;
-        let h = record.discretisation.h;
         let [from, to] = [STRESS_MIN, STRESS_MAX].map(|m| fixed(1).text(1e-3 * record.metric(m)));
         panels.push(FieldPanel {
-            title: format!("{title}: {from}…{to} kPa"),
-            points: table.points("x", "y"),
-            values: table.column("stress_xx").to_vec(),
-            size: h / f64::from(record.discretisation.ppc).sqrt(),
             outline: vec![(0.0, 0.0), (LENGTH, 0.0), (LENGTH, DEPTH), (0.0, DEPTH)],
+            ..field_panel(record, &table, format!("{title}: {from}…{to} kPa"), "stress_xx")
         });
     }
-    let figure = FieldFigure {
-        title: String::new(),
-        panels,
-        columns: 2,
-        range: (-STRESS_RANGE, STRESS_RANGE),
-        label: "σ_xx (Pa)".to_owned(),
-        window: None,
-    };
-    draw_fields(&gallery.place("beams.png"), &figure)?;
-    gallery.hang("beams.png", "The beam at 4 kN/m³ and where it began, σ_xx: at h = 0.05 m, and at h = 0.1 m with the paper's elements, points, soft stiffness and linear update. Its Figure 2 tells of −40.8…27.6 kPa at the points and, extrapolated, −47.5…32.0 kPa at the nodes, where its finite elements have −47.4…32.6 kPa.");
-    Ok(())
+    Fields::new(panels, "σ_xx (Pa)", (-STRESS_RANGE, STRESS_RANGE)).draw(gallery, "beams", "The beam at 4 kN/m³ and where it began, σ_xx: at h = 0.05 m, and at h = 0.1 m with the paper's elements, points, soft stiffness and linear update. Its Figure 2 tells of −40.8…27.6 kPa at the points and, extrapolated, −47.5…32.0 kPa at the nodes, where its finite elements have −47.4…32.6 kPa.")
 }
 
 /// Value of the parameter `name`, the `default` where it is not set, of a run with serendipity elements at h = 0.1 m and the

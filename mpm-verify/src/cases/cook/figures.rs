@@ -1,7 +1,7 @@
 //! Figures of Cook's membrane: the state of rest, its convergence, and the way there.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, remedy_title};
 use reference::Measure;
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa
@@ -31,32 +31,21 @@ fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
                 continue;
             };
             let table = runs.gallery.table(record, "particles.csv")?;
-            panels.push(FieldPanel {
-                title: format!("{}, h = {} m", remedy_title(remedy), record.discretisation.h),
-                points: table.points("x", "y"),
-                values: table.column("mean_stress").to_vec(),
-                size: spacing(record),
-                outline: OUTLINE.to_vec(),
-            });
+            let title = format!("{}, h = {} m", remedy_title(remedy), record.discretisation.h);
+            let outline = OUTLINE.to_vec();
+            panels.push(FieldPanel { outline, ..field_panel(record, &table, title, "mean_stress") });
         }
     }
-    if panels.is_empty() {
-        return Ok(());
-    }
     let title = basis_title(basis);
-    let figure = FieldFigure {
-        title: format!("Cook's membrane at rest, {title}"),
-        panels,
-        columns: 2,
-        range: (-STRESS_RANGE, STRESS_RANGE),
-        label: "mean normal stress (Pa)".to_owned(),
-        window: None,
-    };
-    runs.fields(
-        &format!("mean-stress-{basis}"),
-        &figure,
-        format!("Mean normal stress at rest with {title}: standard MPM against F̄ (data: particles.csv of each run)."),
-    )
+    Fields::new(panels, "mean normal stress (Pa)", (-STRESS_RANGE, STRESS_RANGE))
+        .titled(format!("Cook's membrane at rest, {title}"))
+        .draw(
+            runs.gallery,
+            &format!("mean-stress-{basis}"),
+            format!(
+                "Mean normal stress at rest with {title}: standard MPM against F̄ (data: particles.csv of each run)."
+            ),
+        )
 }
 
 /// Displacement over the cell size, of the schemes that come to rest.

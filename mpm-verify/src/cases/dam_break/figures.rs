@@ -1,7 +1,7 @@
 //! Figures: the paper's Figure 12, the flow against time, an animation.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, remedy_title};
 use crate::draw::{animate_fields, signed};
 use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
@@ -53,13 +53,8 @@ fn panel(runs: &Exhibit, record: &Record, time: f64, title: String) -> Result<Op
     let Some(table) = runs.gallery.snapshot(record, time)? else {
         return Ok(None);
     };
-    let panel = FieldPanel {
-        title,
-        points: table.points("x", "y"),
-        values: table.column("pressure").iter().map(|p| 1e-3 * p).collect(),
-        size: spacing(record),
-        outline: OUTLINE.to_vec(),
-    };
+    let values = table.column("pressure").iter().map(|p| 1e-3 * p).collect();
+    let panel = FieldPanel { values, outline: OUTLINE.to_vec(), ..field_panel(record, &table, title, "pressure") };
     Ok(Some(panel.showing(|(_, y)| y <= HEIGHT)))
 }
 
@@ -80,15 +75,8 @@ fn column(runs: &Exhibit, (basis, level): (BasisName, &str), time: f64) -> Resul
     Ok(panels)
 }
 
-fn figure(title: String, panels: Vec<FieldPanel>, columns: usize) -> FieldFigure {
-    FieldFigure {
-        title,
-        panels,
-        columns,
-        range: signed(MOST_PRESSURE),
-        label: "pressure (kPa)".to_owned(),
-        window: Some(WINDOW),
-    }
+fn figure(panels: Vec<FieldPanel>, columns: usize) -> Fields {
+    Fields::new(panels, "pressure (kPa)", signed(MOST_PRESSURE)).columns(columns).within(WINDOW)
 }
 
 fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
@@ -108,9 +96,9 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let count = columns.len();
     let panels = (0..SHOWN.len() * count).map(|k| columns[k % count][k / count].clone()).collect();
     let of = basis_title(basis);
-    runs.fields(
+    figure(panels, count).titled(format!("{of}, {}", level_title(level))).draw(
+        runs.gallery,
         &format!("snapshots-{basis}"),
-        &figure(format!("{of}, {}", level_title(level)), panels, count),
         format!("The water with {of} in colours of its pressure: standard MPM, the paper's F̄, ours. The paper's Figure 12 (data: snapshots of each run; jets above {HEIGHT} m are cut off)."),
     )
 }
@@ -125,7 +113,7 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
         if column.is_empty() {
             break;
         }
-        frames.push(figure(String::new(), column, SHOWN.len()));
+        frames.push(figure(column, SHOWN.len()).0);
     }
     if frames.is_empty() {
         return Ok(());

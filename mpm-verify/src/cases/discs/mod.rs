@@ -5,6 +5,7 @@
 mod flight;
 mod run;
 
+use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use run::{CENTRES, IN_CONTACT, RADIUS};
 
@@ -404,28 +405,12 @@ fn contact(gallery: &mut Gallery) -> Result<(), Error> {
         let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else {
             continue;
         };
-        panels.push(FieldPanel {
-            title: basis.to_string(),
-            points: table.points("x", "y"),
-            values: table.column("mean_stress").to_vec(),
-            size: record.discretisation.h / f64::from(record.discretisation.ppc).sqrt(),
-            outline: Vec::new(),
-        });
-    }
-    if panels.is_empty() {
-        return Ok(());
+        panels.push(field_panel(record, &table, basis.to_string(), "mean_stress"));
     }
     let [[lo, _], [hi, _]] = CENTRES;
     let window = (lo - 1.05 * RADIUS, hi + 1.05 * RADIUS);
-    let figure = FieldFigure {
-        title: String::new(),
-        columns: panels.len(),
-        panels,
-        range: (-STRESS_RANGE, STRESS_RANGE),
-        label: "mean stress (Pa)".to_owned(),
-        window: Some((window, window)),
-    };
-    draw_fields(&gallery.place("contact.png"), &figure)?;
-    gallery.hang("contact.png", "The discs at 23.75 s, when they have come to rest against each other, with the midpoint rule; the paper's Figure 5.");
-    Ok(())
+    Fields::new(panels, "mean stress (Pa)", (-STRESS_RANGE, STRESS_RANGE))
+        .columns(3)
+        .within((window, window))
+        .draw(gallery, "contact", "The discs at 23.75 s, when they have come to rest against each other, with the midpoint rule; the paper's Figure 5.")
 }

@@ -5,6 +5,7 @@
 mod run;
 mod scene;
 
+use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use crate::parameter::number;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
@@ -374,24 +375,12 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     }
     tables.push(("at the end".to_owned(), gallery.table(record, "particles.csv")?));
     let panel = |(title, table): (String, Table)| FieldPanel {
-        title,
-        points: table.points("x", "y"),
-        values: table.column("plastic_strain").to_vec(),
-        size: slope.pitch(),
         outline: vec![(0.0, 0.0), (foot, 0.0), (foot, cut), (crest, HEIGHT), (0.0, HEIGHT)],
+        ..field_panel(record, &table, title, "plastic_strain")
     };
-    let figure = FieldFigure {
-        title: String::new(),
-        columns: 1,
-        panels: tables.into_iter().map(panel).collect(),
-        range: (0.0, STRAIN),
-        label: "equivalent plastic strain (–)".to_owned(),
-        window: Some(((0.0, foot + BEYOND), (-0.05, 1.1 * HEIGHT))),
-    };
-    draw_fields(&gallery.place("plastic-strain.png"), &figure)?;
-    gallery.hang(
-        "plastic-strain.png",
-        "Equivalent plastic strain after the toe was taken away; the paper's Figure 9. The outline is that of the cut slope.",
-    );
-    Ok(())
+    let panels = tables.into_iter().map(panel).collect();
+    Fields::new(panels, "equivalent plastic strain (–)", (0.0, STRAIN))
+        .columns(1)
+        .within(((0.0, foot + BEYOND), (-0.05, 1.1 * HEIGHT)))
+        .draw(gallery, "plastic-strain", "Equivalent plastic strain after the toe was taken away; the paper's Figure 9. The outline is that of the cut slope.")
 }

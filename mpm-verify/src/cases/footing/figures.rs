@@ -2,7 +2,7 @@
 
 use super::reference::{limit_curve, limit_uncertainty};
 use super::*;
-use crate::cases::pictures::{Exhibit, basis_title, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, Fields, basis_title, remedy_title, spacing};
 use crate::draw::signed;
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
@@ -125,10 +125,6 @@ fn panel(
     Ok(panel.showing(|(x, y)| x <= NEAR.0 && y >= -NEAR.1))
 }
 
-fn figure(title: String, panels: Vec<FieldPanel>, range: (f64, f64), label: &str) -> FieldFigure {
-    FieldFigure { title, panels, columns: 2, range, label: label.to_owned(), window: None }
-}
-
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let remedies = [RemedyName::None, FbarConsistent];
     let Some(level) = runs.level(basis, &remedies, &LEVELS) else {
@@ -143,9 +139,9 @@ fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     }
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(level));
-    runs.fields(
+    Fields::new(panels, "mean normal stress (kPa)", signed(LEAST_STRESS)).titled(title).draw(
+        runs.gallery,
         &format!("mean-stress-{basis}"),
-        &figure(title, panels, signed(LEAST_STRESS), "mean normal stress (kPa)"),
         format!("Mean normal stress at the end with {of}: standard MPM against F̄. The paper's Figure 10 (data: particles.csv of each run)."),
     )
 }
@@ -164,24 +160,18 @@ fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let strain = |table: &Table, k: usize| table.column("plastic_strain")[k].log10();
     let velocity = panel(runs, record, title.clone(), speed)?;
     let plastic = panel(runs, record, title, strain)?;
-    runs.fields(
+    Fields::new(vec![velocity], "|u| / |u of the footing|", (0.0, 1.0)).titled("Prandtl's mechanism".to_owned()).draw(
+        runs.gallery,
         &format!("velocity-{basis}"),
-        &figure(
-            "Prandtl's mechanism".to_owned(),
-            vec![velocity],
-            (0.0, 1.0),
-            "|u| / |u of the footing|",
-        ),
         format!("Displacement over the last quarter of the penetration over that of the footing, {remedy}, {of}: a wedge that sinks with the footing, a fan, a wedge that is pushed up, and ground at rest."),
     )?;
-    runs.fields(
-        &format!("plastic-strain-{basis}"),
-        &figure(
-            "Where the ground has yielded".to_owned(),
-            vec![plastic],
-            STRAINS,
-            "log₁₀ of the equivalent plastic strain",
-        ),
-        format!("Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."),
-    )
+    Fields::new(vec![plastic], "log₁₀ of the equivalent plastic strain", STRAINS)
+        .titled("Where the ground has yielded".to_owned())
+        .draw(
+            runs.gallery,
+            &format!("plastic-strain-{basis}"),
+            format!(
+                "Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."
+            ),
+        )
 }

@@ -1,6 +1,7 @@
 //! The picture of motions that lock.
 
 use super::{COMPARED, SMOOTH};
+use crate::cases::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 
 /// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.
@@ -15,26 +16,8 @@ pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f6
             continue;
         };
         let table = gallery.table(run, "particles.csv")?;
-        panels.push(FieldPanel {
-            title: scheme.title(),
-            points: table.points("x", "y"),
-            values: table.column("mean_stress").to_vec(),
-            size: run.discretisation.h / f64::from(run.discretisation.ppc).sqrt(),
-            outline: Vec::new(),
-        });
+        panels.push(field_panel(run, &table, scheme.title(), "mean_stress"));
     }
-    if panels.is_empty() {
-        return Ok(());
-    }
-    let figure = FieldFigure {
-        title: String::new(),
-        panels,
-        columns: 3,
-        range: (-most, most),
-        label: "mean stress (Pa)".to_owned(),
-        window: None,
-    };
-    draw_fields(&gallery.place("mean-stress.png"), &figure)?;
-    gallery.hang("mean-stress.png", format!("Mean stress of the particles at the end, at level {level}."));
-    Ok(())
+    let caption = format!("Mean stress of the particles at the end, at level {level}.");
+    Fields::new(panels, "mean stress (Pa)", (-most, most)).columns(3).draw(gallery, "mean-stress", caption)
 }

@@ -1,7 +1,7 @@
 //! The figures of the strip, beside Figures 10 and 11 of the paper.
 
 use super::*;
-use crate::cases::pictures::spacing;
+use crate::cases::pictures::{Fields, field_panel};
 
 /// Shares of the load at which particles are drawn.
 const SHARES: [f64; 2] = [0.25, 0.5];
@@ -26,36 +26,10 @@ fn finest<'g>(gallery: &Gallery<'g>, own: impl Fn(&Record) -> bool) -> Option<&'
 
 fn panel(record: &Record, table: &Table, title: String, column: &str, of: impl Fn(f64) -> f64) -> FieldPanel {
     FieldPanel {
-        title,
         values: table.column(column).iter().map(|value| of(*value)).collect(),
-        points: table.points("x", "y"),
-        size: spacing(record),
         outline: vec![(0.0, SIDE), (1.0, SIDE), (1.0, SIDE + 0.1), (0.0, SIDE + 0.1)],
+        ..field_panel(record, table, title, column)
     }
-}
-
-/// Draws fields side by side, if there are any.
-fn fields(
-    gallery: &mut Gallery,
-    name: &str,
-    panels: Vec<FieldPanel>,
-    (range, label): ((f64, f64), &str),
-    caption: &str,
-) -> Result<(), Error> {
-    if panels.is_empty() {
-        return Ok(());
-    }
-    let figure = FieldFigure {
-        title: String::new(),
-        columns: panels.len().min(2),
-        panels,
-        range,
-        label: label.to_owned(),
-        window: None,
-    };
-    draw_fields(&gallery.place(name), &figure)?;
-    gallery.hang(name, caption);
-    Ok(())
 }
 
 /// Pressure over the load of elastic soil at shares of the load, and of clay at its limit: Figures 10 and 11(b).
@@ -80,11 +54,9 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
         let title = format!("Cam clay, q = {:.1} kPa", 1e-3 * load);
         panels.push(of(record, &table, title, load));
     }
-    fields(
+    Fields::new(panels, "p/q", PRESSURES).draw(
         gallery,
-        "pressure.png",
-        panels,
-        (PRESSURES, "p/q"),
+        "pressure",
         "Pressure at the particles over the load, of two grids, of elastic soil as the load grows and of Cam clay at its limit. \
          The paper's Figures 10 and 11(b) (data: particles.csv and snapshots of the runs).",
     )
@@ -98,11 +70,9 @@ fn plastic_strain(gallery: &mut Gallery) -> Result<(), Error> {
         let title = "Cam clay at its limit".to_owned();
         panels.push(panel(record, &table, title, "plastic_strain", f64::log10));
     }
-    fields(
+    Fields::new(panels, "log₁₀ of the equivalent plastic strain", STRAINS).draw(
         gallery,
-        "plastic-strain.png",
-        panels,
-        (STRAINS, "log₁₀ of the equivalent plastic strain"),
+        "plastic-strain",
         "Equivalent plastic strain of Cam clay at its limit, of two grids. The paper's Figure 11(a) (data: particles.csv of the run).",
     )
 }
