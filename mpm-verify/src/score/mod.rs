@@ -6,13 +6,15 @@
 mod columns;
 pub mod export;
 pub mod gate;
+mod legacy;
 pub mod manifest;
+mod vtk;
 mod vtu;
 
 use crate::case::{Case, find_level};
 use crate::cases::find_scored;
 use crate::error::Error;
-use crate::files::require_inside;
+use crate::files::{TABLE, read as read_file, require_inside};
 use crate::foreign::{Asked, Foreign, Gap, Given, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
@@ -113,10 +115,13 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
                 }
                 table
             }
-            Some("vtu" | "vtp") if part == Part::Particles => vtu::read(&path)?,
+            Some(kind @ ("vtk" | "vtp" | "vtu")) if part == Part::Particles => {
+                let read = if kind == "vtk" { legacy::table } else { vtu::table };
+                read(&read_file(&path, TABLE)?).map_err(|said| Error::file(&path, said))?
+            }
             _ => {
                 let allowed = match part {
-                    Part::Particles => "a .csv, .vtu or .vtp file",
+                    Part::Particles => "a .csv, .vtu, .vtp or .vtk file",
                     Part::Series => "a .csv file",
                 };
                 let said = format!("{} {:?}; allowed: {allowed}", part.name(), name.0);

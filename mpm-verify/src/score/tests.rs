@@ -154,7 +154,7 @@ fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
     let said = refused("series", json!("particles.vtu"));
     assert!(said.contains("series \"particles.vtu\"; allowed: a .csv file"), "{said}");
     let said = refused("particles", json!("particles.txt"));
-    assert!(said.contains("particles \"particles.txt\"; allowed: a .csv, .vtu or .vtp file"), "{said}");
+    assert!(said.contains("particles \"particles.txt\"; allowed: a .csv, .vtu, .vtp or .vtk file"), "{said}");
     refused("series", Value::Null);
     let said = refused("particles", Value::Null);
     assert!(said.contains("no table; this case is scored by: particles, series"), "{said}");
