@@ -20,6 +20,8 @@ use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
+use crate::study::convergence::convergence;
+use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
 use crate::wanted::{Wanted, settled};
@@ -27,7 +29,95 @@ use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A result of another code, judged.
+/// Checks on runs together that compare with the time steps of our scheme, by case: no code need take these.
+const OF_OUR_STEPS: [(&str, &str); 2] = [("consolidation", "order-space"), ("consolidation", "richardson")];
+
+/// Runs of another code for one case, judged.
+pub struct Scores {
+    /// The case.
+    pub case: &'static Case,
+    /// The code.
+    pub code: String,
+    /// The runs.
+    pub runs: Vec<Scored>,
+    /// Names of runs of one scheme, basis and `repeat`, with verdicts on them together and observed orders.
+    pub together: Vec<(String, CaseStudy)>,
+}
+
+/// Verdicts on a run, or on runs together: their name, and whether they are together.
+pub type Judged<'a> = (String, &'a [Verdict], bool);
+
+impl Scores {
+    /// Reads and judges the runs in a folder.
+    ///
+    /// # Errors
+    /// The manifest is refused, names what there isn't, has a run or a table twice, or a table can't be read or measured:
+    /// the error names file, run and key or column.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let mut runs = Vec::<Scored>::new();
+        for manifest in Manifest::read(folder)? {
+            let run = Scored::of(folder, manifest)?;
+            let (own, record) = (&run.manifest, &run.record);
+            for other in &runs {
+                let (others, level) = (&other.manifest, &other.record.level);
+                let refuse = |key, what| Err(own.refuse(folder, key, format!("{} {what}", other.name())));
+                if own.tables().any(|name| others.tables().any(|other| other == name)) {
+                    return refuse("tables", "names one of them too");
+                }
+                let same = (&record.level, &record.parameters) == (level, &other.record.parameters);
+                if same && own.method() == others.method() {
+                    return refuse("level", "is the same run; allowed: another scheme or `repeat`");
+                }
+            }
+            runs.push(run);
+        }
+        let Some(first) = runs.first() else { return Err(Error::file(&folder.join(FILE), "no run")) };
+        let (case, code) = (first.case, first.manifest.code.name.0.clone());
+        let methods = crate::distinct(runs.iter().map(|run| run.manifest.method()));
+        let together = methods.into_iter().map(|method| {
+            let own: Vec<&Scored> = runs.iter().filter(|run| run.manifest.method() == method).collect();
+            let names: Vec<String> = own.iter().map(|run| run.name()).collect();
+            (names.join(", "), together(case, &own))
+        });
+        Ok(Self { case, code, together: together.collect(), runs })
+    }
+
+    /// What is said of all runs, as of our own.
+    #[must_use]
+    pub fn summary(&self) -> Summary {
+        Summary::new("score", self.together.iter().map(|(_, study)| study.clone()).collect())
+    }
+
+    /// Whether the manifest has a list of runs.
+    #[must_use]
+    pub fn is_list(&self) -> bool {
+        self.runs.iter().any(|run| run.manifest.run > 0)
+    }
+
+    /// The verdicts on each run, then those on runs together.
+    #[must_use]
+    pub fn judged(&self) -> Vec<Judged<'_>> {
+        let runs = self.runs.iter().map(|run| (run.name(), &run.record.verdicts[..], false));
+        let together = self.together.iter().map(|(runs, s)| (format!("{runs} together"), &s.verdicts[..], true));
+        runs.chain(together).collect()
+    }
+}
+
+/// Runs of one series with the verdicts of the case's own checks on runs together, and the orders that show.
+fn together(case: &Case, runs: &[&Scored]) -> CaseStudy {
+    let mut study = CaseStudy::new(case.name, runs.iter().map(|run| run.record.clone()).collect());
+    study.convergence = convergence(case, &study.records);
+    let missing = crate::distinct(runs.iter().flat_map(|run| &run.missing).map(Asked::place));
+    let why = |v: &Verdict| match v.value {
+        _ if OF_OUR_STEPS.contains(&(case.name, &*v.check)) => Some("against time steps of our scheme".to_owned()),
+        Some(x) if x.is_nan() => Some(format!("no number comes of the runs; missing: {}", missing.join(", "))),
+        _ => runs.iter().find_map(|run| open(&run.gaps, v)),
+    };
+    study.verdicts = demands(case.judge_study(&study.records), why).collect();
+    study
+}
+
+/// A run of another code, judged.
 pub struct Scored {
     /// Manifest of the result.
     pub manifest: Manifest,
@@ -39,21 +129,26 @@ pub struct Scored {
     pub missing: Vec<Asked>,
     /// Columns that are there and that the case knows nothing of.
     pub unknown: Vec<String>,
+    /// Metrics that the rows leave open.
+    gaps: Vec<(Metric, Gap)>,
 }
 
 impl Scored {
-    /// Reads and judges the result in a folder.
-    ///
-    /// # Errors
-    /// The manifest is refused, names what there isn't, or a table can't be read or measured: the error names file and
-    /// key or column.
-    pub fn read(folder: &Path) -> Result<Self, Error> {
-        let manifest = Manifest::read(folder)?;
-        let refuse = |key: &'static str| move |e: Error| Manifest::refuse(folder, key, &e);
-        let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
-        let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
+    /// Its name among the runs.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self.manifest.run {
+            0 => self.record.level.clone(),
+            run => format!("run {run} ({})", self.record.level),
+        }
+    }
+
+    fn of(folder: &Path, manifest: Manifest) -> Result<Self, Error> {
+        let refuse = |key: &str, e: Error| manifest.refuse(folder, key, e);
+        let (case, foreign) = find_scored(&manifest.case.0).map_err(|e| refuse("case", e))?;
+        let level = find_level(case, &manifest.level.0).map_err(|e| refuse("level", e))?;
         let set = manifest.parameters.clone();
-        let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
+        let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters", e.into()))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
         let (tables, lines) = tables(folder, &manifest, foreign)?;
@@ -89,7 +184,7 @@ impl Scored {
             }
         }
         record.verdicts = judge(case, foreign, &given, &gaps, &record);
-        Ok(Self { manifest, case, record, missing, unknown })
+        Ok(Self { manifest, case, record, missing, unknown, gaps })
     }
 }
 
@@ -106,7 +201,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
             continue;
         };
         require_inside(folder, Path::new(&name.0))?;
-        let path = Manifest::beside(folder, name);
+        let path = folder.join(&name.0);
         let table = match path.extension().and_then(|e| e.to_str()) {
             Some("csv") => {
                 let (table, own) = columns::read(&path)?;
@@ -142,30 +237,37 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
 /// what is measured from a column that is missing, or left open by the rows of the series, is not judged. A wanted quantity
 /// that no column gives is not asked for.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
-    let unjudged = |v: Verdict, why: String| Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v };
-    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
-    let verdicts: Vec<Verdict> = case.verdicts(record).into_iter().filter(of_code).collect();
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
+    let why = |v: &Verdict| {
+        let lacking = group_of(v).into_iter().flat_map(|g| g.columns).filter(|c| !given.has(c)).map(Asked::place);
+        let lacking: Vec<String> = lacking.collect();
+        match lacking.is_empty() {
+            true => open(gaps, v),
+            false => Some(format!("missing: {}", lacking.join(", "))),
+        }
+    };
+    let verdicts: Vec<Verdict> = demands(case.verdicts(record), why).collect();
     let is_given = |w: &&Wanted| {
         let mut own = verdicts.iter().filter(|v| w.is_judged_by(&v.check)).peekable();
         own.peek().is_none() || own.any(|v| group_of(v).is_some())
     };
     let wanted: Vec<Wanted> = case.wanted.iter().filter(is_given).copied().collect();
-    let judged = verdicts.into_iter().filter_map(|v| {
-        let group = group_of(&v)?;
-        let mut lacking = group.columns.iter().filter(|c| !given.has(c)).peekable();
-        if lacking.peek().is_none() {
-            let mut open = gaps.iter().filter(|(metric, _)| metric.name == v.metric);
-            return match open.find_map(|(_, gap)| gap.refusal(v.tolerance)) {
-                Some(why) => Some(unjudged(v, why)),
-                None => Some(v),
-            };
-        }
-        let lacking = lacking.map(|c| format!("{} of the {}", c.header(), c.part.name()));
-        let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
-        Some(unjudged(v, why))
-    });
-    settled(&wanted, judged.collect())
+    settled(&wanted, verdicts.into_iter().filter(|v| group_of(v).is_some()).collect())
+}
+
+/// The demands on every code among verdicts: a known limit of our schemes is none. One is not judged if there is a reason.
+fn demands(all: Vec<Verdict>, why: impl Fn(&Verdict) -> Option<String>) -> impl Iterator<Item = Verdict> {
+    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
+    all.into_iter().filter(of_code).map(move |v| match why(&v) {
+        Some(why) => Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v },
+        None => v,
+    })
+}
+
+/// Why the rows leave a verdict open, if they do.
+fn open(gaps: &[(Metric, Gap)], v: &Verdict) -> Option<String> {
+    let mut own = gaps.iter().filter(|(metric, _)| metric.name == v.metric);
+    own.find_map(|(_, gap)| gap.refusal(v.tolerance))
 }
 
 #[cfg(test)]

@@ -17,22 +17,28 @@ const PARTS: [Parts; 5] = [
     ("stress", "Pa", 9, &[(0, "stress_xx (Pa)"), (4, "stress_yy (Pa)"), (8, "stress_zz (Pa)"), (1, "stress_xy (Pa)")]),
 ];
 
-/// Types of numbers: their name, bytes and value.
+/// Types of numbers: their name, those of the old format, bytes and value.
 pub(super) type Kind = (&'static str, usize, fn([u8; 8]) -> f64);
 
 /// From the first bytes, the lowest first.
-pub(super) const KINDS: [Kind; 10] = [
-    ("Float64", 8, f64::from_le_bytes),
-    ("Float32", 4, |b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("Int64", 8, |b| i64::from_le_bytes(b) as f64),
-    ("UInt64", 8, |b| u64::from_le_bytes(b) as f64),
-    ("Int32", 4, |b| f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("UInt32", 4, |b| f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("Int16", 2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
-    ("UInt16", 2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
-    ("Int8", 1, |b| f64::from(b[0] as i8)),
-    ("UInt8", 1, |b| f64::from(b[0])),
+const KINDS: [Kind; 10] = [
+    ("Float64 double", 8, f64::from_le_bytes),
+    ("Float32 float", 4, |b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+    ("Int64 long vtktypeint64", 8, |b| i64::from_le_bytes(b) as f64),
+    ("UInt64 unsigned_long vtktypeuint64", 8, |b| u64::from_le_bytes(b) as f64),
+    ("Int32 int vtkIdType", 4, |b| f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+    ("UInt32 unsigned_int", 4, |b| f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
+    ("Int16 short", 2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
+    ("UInt16 unsigned_short", 2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
+    ("Int8 char signed_char", 1, |b| f64::from(b[0] as i8)),
+    ("UInt8 unsigned_char", 1, |b| f64::from(b[0])),
 ];
+
+/// The kind of a name.
+pub(super) fn kind(name: &str) -> Result<&'static Kind, String> {
+    let known = KINDS.iter().find(|(names, ..)| names.split(' ').any(|own| own.eq_ignore_ascii_case(name)));
+    known.ok_or_else(|| format!("type {name:?}"))
+}
 
 /// Bytes of numbers of a kind, as these.
 pub(super) fn numbers((_, size, value): &Kind, bytes: &[u8], big_endian: bool) -> Vec<f64> {
@@ -92,40 +98,29 @@ impl Array {
 
 type Column = (String, Vec<f64>);
 
-/// Columns of the arrays of a file.
-#[derive(Default)]
-pub(super) struct Columns {
-    own: Vec<Column>,
-    parts: Vec<Column>,
-}
-
-impl Columns {
-    /// Adds those of an array that is read.
-    pub(super) fn add(&mut self, array: Array, numbers: Vec<f64>) {
+/// The table of arrays that are read and their numbers. A column that is there as a scalar goes before a component.
+///
+/// # Errors
+/// There is no array, a column is there twice, or a number is not finite: the error names the array.
+pub(super) fn table(arrays: impl Iterator<Item = Result<(Array, Vec<f64>), String>>) -> Result<Table, String> {
+    let (mut columns, mut parts) = (Vec::<Column>::new(), Vec::<Column>::new());
+    for array in arrays {
+        let (array, numbers) = array?;
         if array.of_points {
             let along = |axis: usize| numbers.iter().skip(axis).step_by(3).copied().collect();
-            self.own.extend(AXES.iter().enumerate().map(|(axis, name)| ((*name).to_owned(), along(axis))));
+            columns.extend(AXES.iter().enumerate().map(|(axis, name)| ((*name).to_owned(), along(axis))));
         } else if array.components == 1 {
-            self.own.push((array.name, numbers));
+            columns.push((array.name, numbers));
         } else {
-            self.parts.extend(array.parts(&numbers));
+            parts.extend(array.parts(&numbers));
         }
     }
-
-    /// The table; a column that is there as a scalar goes before a component.
-    ///
-    /// # Errors
-    /// There is none, one is there twice, or a number is not finite: the error names the array.
-    pub(super) fn table(self) -> Result<Table, String> {
-        let Self { own: mut columns, mut parts } = self;
-        parts.retain(|(name, _)| !columns.iter().any(|(own, _)| own == name));
-        columns.append(&mut parts);
-        let is_empty = columns.is_empty();
-        let table = Table::of_columns(columns);
-        table.require_finite("array", "point")?;
-        match is_empty {
-            true => Err("no points and no scalar point data".to_owned()),
-            false => Ok(table),
-        }
+    parts.retain(|(name, _)| !columns.iter().any(|(own, _)| own == name));
+    columns.append(&mut parts);
+    if columns.is_empty() {
+        return Err("no points and no scalar point data".to_owned());
     }
+    let table = Table::of_columns(columns);
+    table.require_finite("array", "point")?;
+    Ok(table)
 }

@@ -1,7 +1,7 @@
 //! Particles from an unstructured grid or polygonal data of VTK, as other codes and ParaView write them: one piece, whose
 //! points and point data become columns; in ASCII, or binary in place or appended, plain or compressed by zlib.
 
-use super::vtk::{self, Columns, KINDS, MOST, lowest_first, number};
+use super::vtk::{self, MOST, lowest_first};
 use crate::table::Table;
 use flate2::read::ZlibDecoder;
 use quick_xml::Reader;
@@ -53,13 +53,10 @@ pub(super) fn table(bytes: &[u8]) -> Result<Table, String> {
     let mark = data.iter().position(|b| *b == b'_');
     let data = mark.map_or(&[][..], |mark| &data[mark + 1..]);
     let points = layout.points.ok_or("no piece with NumberOfPoints")?;
-    let mut columns = Columns::default();
-    for array in arrays {
-        let numbers = array.numbers(&layout, points, data);
-        let numbers = numbers.map_err(|said| format!("array {:?}: {said}", array.own.name))?;
-        columns.add(array.own, numbers);
-    }
-    columns.table()
+    vtk::table(arrays.into_iter().map(|array| match array.numbers(&layout, points, data) {
+        Ok(numbers) => Ok((array.own, numbers)),
+        Err(said) => Err(format!("array {:?}: {said}", array.own.name)),
+    }))
 }
 
 /// An attribute of an element, whose name some programs begin with a capital.
@@ -121,13 +118,7 @@ impl Array {
             None => or,
         };
         let own = vtk::Array { name: text("Name"), of_points, components: number("NumberOfComponents", 1) };
-        Self {
-            own,
-            kind: text("type"),
-            format: text("format"),
-            offset: number("offset", 0),
-            text: String::new(),
-        }
+        Self { own, kind: text("type"), format: text("format"), offset: number("offset", 0), text: String::new() }
     }
 
     fn numbers(&self, layout: &Layout, points: usize, data: &[u8]) -> Result<Vec<f64>, String> {
@@ -136,7 +127,7 @@ impl Array {
         let numbers: Vec<f64> = match &*self.format {
             "ascii" => {
                 let words = self.text.split_ascii_whitespace().take(count + 1);
-                words.map(number).collect::<Result<_, _>>()?
+                words.map(vtk::number).collect::<Result<_, _>>()?
             }
             "binary" => self.unpack(layout, count, &mut Base64::new(self.text.as_bytes()))?,
             "appended" => {
@@ -158,8 +149,7 @@ impl Array {
 
     /// Unpacks `count` numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
     fn unpack(&self, layout: &Layout, count: usize, from: &mut impl Read) -> Result<Vec<f64>, String> {
-        let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
-        let kind = known.ok_or_else(|| format!("type {:?}", self.kind))?;
+        let kind = vtk::kind(&self.kind)?;
         let (_, size, _) = kind;
         let whole = (count * size) as u64;
         layout.spend(8 * count as u64)?;
