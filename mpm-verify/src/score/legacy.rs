@@ -92,9 +92,7 @@ impl File<'_> {
                 Ok(())
             }
             ("SCALARS", [name, kind, n @ ..]) if n.len() < 2 => {
-                if self.begins("LOOKUP_TABLE") {
-                    self.line();
-                }
+                self.begins("LOOKUP_TABLE").then(|| self.line())?;
                 self.array(name, kind, [n.first().map_or(Some(1), |n| whole(n))?, tuples], false)
             }
             ("VECTORS" | "NORMALS", [name, kind]) => self.array(name, kind, [3, tuples], false),

@@ -195,14 +195,15 @@ impl Manifest {
         let path = folder.join(FILE);
         let text = read_text(&path)?;
         let refused = |run: usize, e: serde_json::Error| {
-            let mut said = e.to_string();
-            if run > 0 {
-                said = format!("run {run}: {}", said.split(" at line ").next().unwrap_or_default());
-            }
-            if let Some(name) = nearest(&said) {
-                said.push_str(&format!("; is `{name}` meant?"));
-            }
-            Error::file(&path, said)
+            let whole = e.to_string();
+            let near = nearest(&whole).map_or(String::new(), |name| format!("; is `{name}` meant?"));
+            let said = match run {
+                0 => &whole,
+                // The place is one in its own keys and those above.
+                _ => whole.split(" at line ").next().unwrap_or_default(),
+            };
+            let run = if run > 0 { format!("run {run}: ") } else { String::new() };
+            Error::file(&path, run + said + &near)
         };
         let of_file = |e| refused(0, e);
         let Versioned { schema, runs } = serde_json::from_str(&text).map_err(of_file)?;
@@ -231,16 +232,6 @@ impl Manifest {
     pub(super) fn refuse(&self, folder: &Path, key: &str, cause: impl fmt::Display) -> Error {
         let run = if self.run > 0 { format!("run {}: ", self.run) } else { String::new() };
         Error::file(&folder.join(FILE), format!("{run}{key}: {cause}"))
-    }
-
-    /// The files that it names.
-    pub(super) fn tables(&self) -> impl Iterator<Item = &FileName> {
-        self.particles.iter().chain(&self.series)
-    }
-
-    /// What runs share that are judged together.
-    pub(super) fn method(&self) -> (&Line, BasisName, Option<&Line>) {
-        (&self.scheme, self.basis, self.repeat.as_ref())
     }
 }
 

@@ -54,32 +54,31 @@ impl Scores {
     /// The manifest is refused, names what there isn't, has a run or a table twice, or a table can't be read or measured:
     /// the error names file, run and key or column.
     pub fn read(folder: &Path) -> Result<Self, Error> {
+        let tables = |of: &Manifest| [&of.particles, &of.series].map(Clone::clone).into_iter().flatten();
+        let method = |run: &Scored| (run.manifest.scheme.clone(), run.manifest.basis, run.manifest.repeat.clone());
+        let whole = |run: &Scored| (method(run), run.record.level.clone(), run.record.parameters.clone());
         let mut runs = Vec::<Scored>::new();
         for manifest in Manifest::read(folder)? {
+            let shares = |run: &&Scored| tables(&run.manifest).any(|name| tables(&manifest).any(|own| own == name));
+            if let Some(other) = runs.iter().find(shares) {
+                return Err(manifest.refuse(folder, "tables", format!("{} names one of them too", other.name())));
+            }
             let run = Scored::of(folder, manifest)?;
-            let (own, record) = (&run.manifest, &run.record);
-            for other in &runs {
-                let (others, level) = (&other.manifest, &other.record.level);
-                let refuse = |key, what| Err(own.refuse(folder, key, format!("{} {what}", other.name())));
-                if own.tables().any(|name| others.tables().any(|other| other == name)) {
-                    return refuse("tables", "names one of them too");
-                }
-                let same = (&record.level, &record.parameters) == (level, &other.record.parameters);
-                if same && own.method() == others.method() {
-                    return refuse("level", "is the same run; allowed: another scheme or `repeat`");
-                }
+            if let Some(other) = runs.iter().find(|other| whole(other) == whole(&run)) {
+                let said = format!("{} is the same run; allowed: another scheme or `repeat`", other.name());
+                return Err(run.manifest.refuse(folder, "level", said));
             }
             runs.push(run);
         }
         let Some(first) = runs.first() else { return Err(Error::file(&folder.join(FILE), "no run")) };
         let (case, code) = (first.case, first.manifest.code.name.0.clone());
-        let methods = crate::distinct(runs.iter().map(|run| run.manifest.method()));
-        let together = methods.into_iter().map(|method| {
-            let own: Vec<&Scored> = runs.iter().filter(|run| run.manifest.method() == method).collect();
+        let together = crate::distinct(runs.iter().map(method)).into_iter().map(|own| {
+            let own: Vec<&Scored> = runs.iter().filter(|run| method(run) == own).collect();
             let names: Vec<String> = own.iter().map(|run| run.name()).collect();
             (names.join(", "), together(case, &own))
         });
-        Ok(Self { case, code, together: together.collect(), runs })
+        let together = together.collect();
+        Ok(Self { case, code, together, runs })
     }
 
     /// What is said of all runs, as of our own.
@@ -103,17 +102,19 @@ impl Scores {
     }
 }
 
-/// Runs of one series with the verdicts of the case's own checks on runs together, and the orders that show.
+/// Runs of one method with the verdicts of the case's own checks on runs together, and the orders that show.
 fn together(case: &Case, runs: &[&Scored]) -> CaseStudy {
     let mut study = CaseStudy::new(case.name, runs.iter().map(|run| run.record.clone()).collect());
-    study.convergence = convergence(case, &study.records);
-    let missing = crate::distinct(runs.iter().flat_map(|run| &run.missing).map(Asked::place));
-    let why = |v: &Verdict| match v.value {
+    let missing = crate::distinct(runs.iter().flat_map(|run| &run.missing).map(Asked::place)).join(", ");
+    let why = |v: &Verdict| match [v.value, v.reference, v.tolerance].into_iter().flatten().any(f64::is_nan) {
         _ if OF_OUR_STEPS.contains(&(case.name, &*v.check)) => Some("against time steps of our scheme".to_owned()),
-        Some(x) if x.is_nan() => Some(format!("no number comes of the runs; missing: {}", missing.join(", "))),
-        _ => runs.iter().find_map(|run| open(&run.gaps, v)),
+        true => Some(format!("the runs do not give all that it compares (missing: {missing})")),
+        false => runs.iter().find_map(|run| open(&run.gaps, v)),
     };
-    study.verdicts = demands(case.judge_study(&study.records), why).collect();
+    if runs.len() > 1 {
+        study.verdicts = demands(case.judge_study(&study.records), why).collect();
+        study.convergence = convergence(case, &study.records);
+    }
     study
 }
 
@@ -255,7 +256,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
     settled(&wanted, verdicts.into_iter().filter(|v| group_of(v).is_some()).collect())
 }
 
-/// The demands on every code among verdicts: a known limit of our schemes is none. One is not judged if there is a reason.
+/// The demands on every code among verdicts, without known limits of our schemes. One with a reason is not judged.
 fn demands(all: Vec<Verdict>, why: impl Fn(&Verdict) -> Option<String>) -> impl Iterator<Item = Verdict> {
     let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
     all.into_iter().filter(of_code).map(move |v| match why(&v) {

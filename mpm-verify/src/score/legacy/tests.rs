@@ -94,22 +94,25 @@ fn other_forms_of_the_text_are_read() {
     };
     let a = || column("a", [6.0, 7.0]);
     with("POINT_DATA 2\nSCALARS a float\nLOOKUP_TABLE default\n6 7", &[a()]);
-    with("POINT_DATA 2\nSCALARS a float 1\n6\n7", &[a()]);
+    with("POINT_DATA 2\nSCALARS a float 1\nLOOKUP_TABLE t\n6\n7", &[a()]);
     with("Point_Data 2\nscalars a DOUBLE\nLookup_Table default\n6 7", &[a()]);
     with(
-        "POINT_DATA 2\nSCALARS a float\nLOOKUP_TABLE t\n6 7\nLOOKUP_TABLE t 1\n0 1 0 1\nSCALARS b int\n8 9",
+        "POINT_DATA 2\nSCALARS a float\nLOOKUP_TABLE t\n6 7\nLOOKUP_TABLE t 1\n0 1 0 1\nSCALARS b int\nLOOKUP_TABLE t\n8 9",
         &[a(), column("b", [8.0, 9.0])],
     );
     with(
         "POINT_DATA 2\nCOLOR_SCALARS c 3\n0 0 1 1 0 0\nFIELD f 2\na 1 2 vtkIdType\n6 7\nv 3 2 float\n1 1 1 1 1 1",
         &[a()],
     );
-    with("FIELD f 1\na 1 3 int\n1 2 3\nCELL_DATA 1\nSCALARS a int\n1\nPOINT_DATA 2\nSCALARS a int\n6 7", &[a()]);
     with(
-        "VERTICES 2 4\n1 0 1 1\nLINES 1 3\n2 0 1\nPOINT_DATA 2\nSCALARS 6%25%20%2x int\n6 7",
+        "FIELD f 1\na 1 3 int\n1 2 3\nCELL_DATA 1\nSCALARS a int\nLOOKUP_TABLE t\n1\nPOINT_DATA 2\nSCALARS a int\nLOOKUP_TABLE t\n6 7",
+        &[a()],
+    );
+    with(
+        "VERTICES 2 4\n1 0 1 1\nLINES 1 3\n2 0 1\nPOINT_DATA 2\nSCALARS 6%25%20%2x int\nLOOKUP_TABLE t\n6 7",
         &[column("6% %2x", [6.0, 7.0])],
     );
-    with("METADATA\nCOMPONENT_NAMES\nPOINT_DATA 9\n\n\n\nPOINT_DATA 2\nSCALARS a int\n6 7", &[a()]);
+    with("METADATA\nCOMPONENT_NAMES\nPOINT_DATA 9\n\n\n\nPOINT_DATA 2\nSCALARS a int\nLOOKUP_TABLE t\n6 7", &[a()]);
     with(
         "POINT_DATA 2\nTENSORS6 stress float\n1 2 6 4 5 0 -1 -2 -6 7 8 0",
         &[
@@ -120,9 +123,12 @@ fn other_forms_of_the_text_are_read() {
             column("mean_stress (Pa)", [3.0, -3.0]),
         ],
     );
-    // Bytes, with the table of colours left out, begin behind the line, whatever they are.
-    let bytes =
-        [file("POINT_DATA 2\nSCALARS a char").replace("ASCII", "BINARY").into_bytes(), b"\n\x20".to_vec()].concat();
+    // Bytes begin behind the line, whatever they are.
+    let bytes = [
+        file("POINT_DATA 2\nSCALARS a char\nLOOKUP_TABLE t").replace("ASCII", "BINARY").into_bytes(),
+        b"\n\x20".to_vec(),
+    ]
+    .concat();
     let numbers: Vec<u8> = (0..6_u8).flat_map(|k| f32::from(k).to_be_bytes()).collect();
     let text = b"0 1 2 3 4 5";
     let at = bytes.windows(text.len()).position(|w| w == text).unwrap();
@@ -134,7 +140,7 @@ fn other_forms_of_the_text_are_read() {
 fn what_is_no_grid_is_refused() {
     let data = |own: &str| file(&format!("POINT_DATA 2\n{own}"));
     let with = |old: &str, new: &str| {
-        let sound = data("SCALARS a int\n6 7");
+        let sound = data("SCALARS a int\nLOOKUP_TABLE t\n6 7");
         assert!(sound.contains(old), "{old}");
         sound.replace(old, new)
     };
@@ -155,12 +161,13 @@ fn what_is_no_grid_is_refused() {
         (with("POINTS 2 float", "POINTS 3 float"), "array \"POINTS\": \"POINT_DATA\" is no number"),
         (with("POINT_DATA", "POINTS 2 float\n0 1 2 3 4 5\nPOINT_DATA"), "array \"x (m)\" is there twice"),
         (with("POINT_DATA 2", "POINT_DATA 1"), "array \"a\": of 1 points, where 2 are"),
+        (with("LOOKUP_TABLE t\n", ""), "line \"SCALARS a int\\n\"; allowed"),
         (with("6 7", "6 x"), "array \"a\": \"x\" is no number"),
         (with("6 7", "6 nan"), "array \"a\", point 2: NaN"),
         (with("6 7", "6"), "array \"a\": not 2 numbers"),
         (with("6 7", "6 7 8"), "line \"8\\n\"; allowed"),
         (with("SCALARS a", "SCALARS x%20(m)"), "array \"x (m)\" is there twice"),
-        (data("SCALARS a string\nb c"), "array \"a\": type \"string\""),
+        (data("SCALARS a string\nLOOKUP_TABLE t\nb c"), "array \"a\": type \"string\""),
         (data("FIELD f 2\na 1 2 int\n6 7"), "line \"\"; allowed: name, components, tuples and type of an array"),
         (data("FIELD f 1\na 1 3 int\n6 7 8"), "array \"a\": of 3 points, where 2 are"),
         (data("FIELD f 1\na x 2 int\n6 7"), "line \"a x 2 int\\n\"; allowed: name"),

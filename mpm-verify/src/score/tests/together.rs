@@ -115,9 +115,7 @@ fn the_worst_run_counts_and_is_named() {
     assert!(said.contains("FAILED: 1 of 3 runs") && said.contains("corner"), "{said}");
     let ours = Ours::beside(&scores).unwrap();
     let told = text(&scores, &ours);
-    for part in
-        ["cantilever run 1 (h0.1): my code", "run 3 (h0.025) together", "corner_error", "between levels", "falls"]
-    {
+    for part in ["cantilever run 1 (h0.1): my code", "run 3 (h0.025) together", "corner_error", "between", "falls"] {
         assert!(told.contains(part), "{part}: {told}");
     }
     write(&scores, &ours, &gate, &result.path("")).unwrap();
@@ -149,11 +147,11 @@ fn a_gate_may_ask_for_checks_on_runs_together() {
     let scores = levels([4e-3, 1e-3, 2.5e-4], |_| ()).scores().unwrap();
     assert!(require("falls").known_to(scores.case).is_ok());
     let said = refused(&require("falls"), &scores);
-    assert!(said.contains("together: falls, ghost: stress_error at h0.05 over that at h0.1 (no number comes of the runs; missing: stress_xx"), "{said}");
+    assert!(said.contains("together: falls, ghost: stress_error at h0.05 over that at h0.1 (the runs do not give all that it compares (missing: stress_xx"), "{said}");
     // That each run is asked for by itself.
     assert_eq!(refused(&require("corner"), &scores), "");
     let said = refused(&require("stress"), &scores);
-    assert!(said.contains("run 1 (h0.1): stress, ") && said.contains("run 3 (h0.025): stress, "), "{said}");
+    assert!(said.contains("run 1 (h0.1): stress (") && said.contains("run 3 (h0.025): stress ("), "{said}");
     // A run by itself shows no order.
     let alone = beam("h0.1", 0.0).0.scores().unwrap();
     assert_eq!(refused(&require("falls"), &alone), "Not passed: not judged: falls (it does not apply to this result)");
@@ -280,4 +278,29 @@ fn orders_that_hang_on_our_steps_are_not_judged() {
     };
     assert!(OF_OUR_STEPS.iter().all(known));
     assert_eq!(gate::gate(false, &[]).exit_code(&scores), ExitCode::Good);
+}
+
+/// A front of which a level shows the beginning only is no bound for the next level.
+#[test]
+fn a_level_that_shows_too_little_bounds_no_other() {
+    let result = Answer::exported("dam-break", "h0.5", &[]);
+    let curve = Table::read(&result.path("reference-front.csv")).unwrap().points("time", "front");
+    let mut manifest = result.json(FILE);
+    let top = manifest.as_object_mut().unwrap();
+    top.retain(|key, _| ["schema", "code", "case", "scheme"].contains(&&**key));
+    let runs = [("h0.5", 0.3), ("h0.25", 9.0)].map(|(level, end)| {
+        let (time, front) = curve.iter().copied().filter(|(time, _)| *time < end).unzip();
+        let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
+        let series = format!("{level}.csv");
+        Table::of_columns(columns).write(&result.path(&series)).unwrap();
+        json!({"level": level, "series": series})
+    });
+    manifest["runs"] = json!(runs);
+    fs::write(result.path(FILE), manifest.to_string()).unwrap();
+    let scores = result.scores().unwrap();
+    assert!(scores.runs[0].record.value("front_rms_error").is_nan());
+    assert!(scores.runs[1].record.value("front_rms_error").is_finite());
+    let falls = outcomes_of(&scores, "front-converges");
+    assert_eq!(falls, [("front_rms_error".to_owned(), Outcome::NotJudged)]);
+    assert_eq!(gate::gate(false, &[]).exit_code(&scores), ExitCode::TruthFailed);
 }
