@@ -65,8 +65,7 @@ impl Asked {
     }
 
     /// Its head and table.
-    #[must_use]
-    pub fn place(&self) -> String {
+    pub(crate) fn place(&self) -> String {
         format!("{} of the {}", self.header(), self.part.name())
     }
 

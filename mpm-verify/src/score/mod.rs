@@ -45,7 +45,7 @@ pub struct Scores {
 }
 
 /// Verdicts on a run, or on runs together: their name, and whether they are together.
-pub type Judged<'a> = (String, &'a [Verdict], bool);
+pub(crate) type Judged<'a> = (String, &'a [Verdict], bool);
 
 impl Scores {
     /// Reads and judges the runs in a folder.
@@ -82,20 +82,17 @@ impl Scores {
     }
 
     /// What is said of all runs, as of our own.
-    #[must_use]
-    pub fn summary(&self) -> Summary {
+    pub(crate) fn summary(&self) -> Summary {
         Summary::new("score", self.together.iter().map(|(_, study)| study.clone()).collect())
     }
 
     /// Whether the manifest has a list of runs.
-    #[must_use]
-    pub fn is_list(&self) -> bool {
+    pub(crate) fn is_list(&self) -> bool {
         self.runs.iter().any(|run| run.manifest.run > 0)
     }
 
     /// The verdicts on each run, then those on runs together.
-    #[must_use]
-    pub fn judged(&self) -> Vec<Judged<'_>> {
+    pub(crate) fn judged(&self) -> Vec<Judged<'_>> {
         let runs = self.runs.iter().map(|run| (run.name(), &run.record.verdicts[..], false));
         let together = self.together.iter().map(|(runs, s)| (format!("{runs} together"), &s.verdicts[..], true));
         runs.chain(together).collect()
@@ -136,8 +133,7 @@ pub struct Scored {
 
 impl Scored {
     /// Its name among the runs.
-    #[must_use]
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         match self.manifest.run {
             0 => self.record.level.clone(),
             run => format!("run {run} ({})", self.record.level),

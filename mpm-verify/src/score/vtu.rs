@@ -249,19 +249,15 @@ impl<'a> Base64<'a> {
 
     /// Decodes the next four characters.
     fn fill(&mut self) {
-        let mut group = 0_u32;
-        let mut bits = 0;
+        let (mut group, mut bits) = (0_u32, 0);
         for _ in 0..4 {
-            let Some(c) = self.text.find(|c| !c.is_ascii_whitespace()) else {
-                return;
-            };
-            let digit = match c {
-                b'A'..=b'Z' => c - b'A',
-                b'a'..=b'z' => c - b'a' + 26,
-                b'0'..=b'9' => c - b'0' + 52,
-                b'+' => 62,
-                b'/' => 63,
-                b'=' => {
+            let digit = match self.text.find(|c| !c.is_ascii_whitespace()).copied() {
+                Some(c @ b'A'..=b'Z') => c - b'A',
+                Some(c @ b'a'..=b'z') => c - b'a' + 26,
+                Some(c @ b'0'..=b'9') => c - b'0' + 52,
+                Some(b'+') => 62,
+                Some(b'/') => 63,
+                Some(b'=') => {
                     group <<= 6;
                     continue;
                 }
