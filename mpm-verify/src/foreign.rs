@@ -64,6 +64,11 @@ impl Asked {
         format!("{} ({})", self.name, self.unit)
     }
 
+    /// Its head and table.
+    pub(crate) fn place(&self) -> String {
+        format!("{} of the {}", self.header(), self.part.name())
+    }
+
     /// Whether a head names it, if its case, blanks, brackets, marks and unit are left out of account.
     fn is_meant_by(&self, head: &str) -> bool {
         let name = head.split(['(', '[', '{', '<']).find(|part| !letters(part).is_empty());

@@ -87,17 +87,25 @@ impl Table {
     /// Those of [`Table::read`], a column that is there twice, and a cell that is NaN or infinite.
     pub fn read_finite(path: &Path) -> Result<Self, Error> {
         let table = Self::read(path)?;
+        table.require_finite("column", "row").map_err(|said| Error::file(path, said))?;
+        Ok(table)
+    }
+
+    /// Checks its names and numbers, of what is called so.
+    ///
+    /// # Errors
+    /// A name is there twice, or a number is NaN or infinite.
+    pub(crate) fn require_finite(&self, column: &str, row: &str) -> Result<(), String> {
         let mut known = std::collections::HashSet::new();
-        for (name, values) in table.iter() {
+        for (name, values) in self.iter() {
             if !known.insert(name) {
-                return Err(Error::file(path, format!("column {name} is there twice")));
+                return Err(format!("{column} {name:?} is there twice"));
             }
-            if let Some(row) = values.iter().position(|v| !v.is_finite()) {
-                let cause = format!("column {name}, row {}: {}", row + 1, values[row]);
-                return Err(Error::file(path, cause));
+            if let Some(k) = values.iter().position(|v| !v.is_finite()) {
+                return Err(format!("{column} {name:?}, {row} {}: {}", k + 1, values[k]));
             }
         }
-        Ok(table)
+        Ok(())
     }
 
     /// Writes the table as CSV; every number reads back as it was.
@@ -221,9 +229,9 @@ mod tests {
     #[test]
     fn every_defect_of_a_table_that_must_be_finite_is_named() {
         for (text, needle) in [
-            (&b"t,u\n0,NaN\n"[..], "column u, row 1: NaN"),
-            (b"t,u\n0,1\n1,inf\n", "column u, row 2: inf"),
-            (b"t,t\n0,1\n", "t is there twice"),
+            (&b"t,u\n0,NaN\n"[..], "column \"u\", row 1: NaN"),
+            (b"t,u\n0,1\n1,inf\n", "column \"u\", row 2: inf"),
+            (b"t,t\n0,1\n", "\"t\" is there twice"),
             (b"t,u\n0,\xff\n", "UTF-8"),
             (b"t,\xff\n0,1\n", "UTF-8"),
             (b"t,u\n0,1\n2\n", "found record with 1 fields"),

@@ -1,8 +1,7 @@
 //! Worked examples of other codes: a result that one has left, and one that is run where it is there.
 
-use super::score::of;
+use super::score::{of, read};
 use super::{code, mpm_verify, stderr, text, workspace};
-use mpm_verify::score::Scored;
 use mpm_verify::verdict::Outcome;
 use std::path::PathBuf;
 
@@ -10,7 +9,7 @@ use std::path::PathBuf;
 #[test]
 fn a_public_code_that_locks_fails_where_it_locks() {
     let folder = workspace().join("mpm-verify/codes/mpm3d-f90");
-    let scored = Scored::read(&folder).unwrap();
+    let scored = read(&folder);
     assert_eq!(scored.record.work.particles, 5776);
     let tip = scored.record.value("tip_uy_nearest");
     assert!((tip - 0.2512).abs() < 5e-5, "{tip}");
@@ -50,7 +49,7 @@ fn another_code_solves_what_is_exported() {
         let script = workspace().join("mpm-verify/codes/taichi/solve.py");
         let solved = std::process::Command::new(&python).args([&script, &problem, &result]).output().unwrap();
         assert!(solved.status.success(), "{}", stderr(&solved));
-        let scored = Scored::read(&result).unwrap();
+        let scored = read(&result);
         for check in right {
             assert_eq!(of(&scored, check)[0].outcome, Outcome::Right, "{case}: {check}");
         }

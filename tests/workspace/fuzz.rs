@@ -16,7 +16,7 @@ use mpm_verify::report::diff::Difference;
 use mpm_verify::report::keep::keep;
 use mpm_verify::report::scored::{Ours, text};
 use mpm_verify::run::checkpoint::{Checkpoint, Identity, Keeper};
-use mpm_verify::score::Scored;
+use mpm_verify::score::Scores;
 use mpm_verify::study::complete::Completeness;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::plan::Plan;
@@ -306,17 +306,17 @@ fn a_damaged_result_of_another_code_is_refused_or_judged() {
         )
     };
     let score = || {
-        if let Ok(scored) = Scored::read(folder.path()) {
+        if let Ok(scored) = Scores::read(folder.path()) {
             let ours = Ours::beside(&scored).unwrap();
             assert!(!text(&scored, &ours).replace("\x1b[", "").contains('\x1b'));
         }
     };
     fs::write(&manifest, of("particles.csv")).unwrap();
-    assert!(Scored::read(folder.path()).is_ok());
+    assert!(Scores::read(folder.path()).is_ok());
     damage("manifest of a result", &manifest, |_| score());
     damage("tables of a result", &folder.path().join("particles.csv"), |_| score());
     fs::write(&manifest, of("particles.vtu")).unwrap();
-    assert!(Scored::read(folder.path()).is_ok());
+    assert!(Scores::read(folder.path()).is_ok());
     damage("grid of a result", &folder.path().join("particles.vtu"), |_| score());
 }
 

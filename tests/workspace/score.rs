@@ -3,7 +3,7 @@
 use super::{code, copy_tree, json, mpm_verify, stderr, stdout, text, workspace};
 use mpm_verify::cases;
 use mpm_verify::report::scored;
-use mpm_verify::score::Scored;
+use mpm_verify::score::{Scored, Scores};
 use mpm_verify::verdict::{Outcome, Verdict};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -99,8 +99,13 @@ impl Copy {
     }
 
     fn score(&self) -> Scored {
-        Scored::read(&self.folder).unwrap()
+        read(&self.folder)
     }
+}
+
+/// The only run of a result.
+pub(super) fn read(folder: &Path) -> Scored {
+    Scores::read(folder).unwrap().runs.remove(0)
 }
 
 pub(super) fn of<'a>(scored: &'a Scored, check: &str) -> Vec<&'a Verdict> {
@@ -113,7 +118,7 @@ pub(super) fn of<'a>(scored: &'a Scored, check: &str) -> Vec<&'a Verdict> {
 fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
     for (case, scheme, ..) in RUNS {
         let folder = made().join(case);
-        let (own, scored) = (json(&folder.join("record.json")), Scored::read(&folder).unwrap());
+        let (own, scored) = (json(&folder.join("record.json")), read(&folder));
         assert_eq!(scored.record.scheme().to_string(), scheme);
         assert!(scored.missing.is_empty(), "{case}: {:?}", scored.missing);
         assert!(!scored.record.metrics.is_empty());
@@ -187,9 +192,9 @@ fn a_result_stands_beside_ours() {
     let told = mpm_verify(&["score", text(&copy.folder), "--json"]);
     assert_eq!(serde_json::from_str::<Value>(&stdout(&told)).unwrap(), found);
     for (case, ..) in RUNS {
-        let scored = Scored::read(&made().join(case)).unwrap();
-        let ours = scored::Ours::beside(&scored).unwrap();
-        for line in scored::text(&scored, &ours).lines() {
+        let scores = Scores::read(&made().join(case)).unwrap();
+        let ours = scored::Ours::beside(&scores).unwrap();
+        for line in scored::text(&scores, &ours).lines() {
             // Without the marks of colours.
             let mut parts = line.split('\u{1b}');
             let first = parts.next().unwrap_or_default().to_owned();
@@ -221,7 +226,7 @@ fn what_is_exported_can_be_filled_in() {
             let name = format!("{}.csv", part.name());
             fs::copy(made().join(case).join(&name), out.join(&name)).unwrap();
         }
-        let scored = Scored::read(&out).unwrap();
+        let scored = read(&out);
         let reference = fs::read_to_string(out.join("reference.csv")).unwrap();
         for verdict in scored.record.verdicts.iter().filter(|v| v.judges() && v.value.is_some()) {
             assert!(reference.contains(&verdict.metric), "{case}: {}", verdict.metric);
@@ -304,7 +309,7 @@ fn the_schema_is_that_of_the_reader() {
     let copy = Copy::of("cook");
     let refusal = |manifest: Value| {
         write(&copy.folder, &manifest);
-        Scored::read(&copy.folder).map(|_| ()).unwrap_err().to_string()
+        Scores::read(&copy.folder).map(|_| ()).unwrap_err().to_string()
     };
     let known = |said: &str| {
         let names = said.split('`').skip(3).step_by(2).map(str::to_owned);

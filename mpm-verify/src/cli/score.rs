@@ -4,7 +4,7 @@ use super::*;
 use mpm_verify::cases::find_scored;
 use mpm_verify::report::{junit, scored};
 use mpm_verify::scheme::BasisName;
-use mpm_verify::score::{Scored, export::export, gate::Gate};
+use mpm_verify::score::{Scores, export::export, gate::Gate};
 
 #[derive(Args)]
 pub(crate) struct Score {
@@ -27,9 +27,9 @@ pub(crate) struct Score {
 }
 
 impl Score {
-    /// Judges the result in a folder; with `out`, writes it there as well.
+    /// Judges the runs in a folder; with `out`, writes it there as well.
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let found = Scored::read(&self.folder)?;
+        let found = Scores::read(&self.folder)?;
         let gate = Gate { strict: self.strict, require: self.require };
         gate.known_to(found.case)?;
         let ours = scored::Ours::beside(&found)?;
@@ -43,7 +43,7 @@ impl Score {
         let refusal = gate.refusal(&found).map_or(String::new(), |why| why + "\n");
         match self.told {
             Told { json: true, .. } => say_json(&scored::json(&found, &ours, &gate))?,
-            Told { quiet: true, .. } => say(describe::run_line(&found.record) + &refusal)?,
+            Told { quiet: true, .. } => say(scored::verdict(&found) + &refusal)?,
             _ => say(scored::text(&found, &ours) + &refusal)?,
         }
         Ok(gate.exit_code(&found))

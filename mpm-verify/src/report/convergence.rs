@@ -3,6 +3,7 @@
 use super::errors::{Entry, Errors};
 use super::prelude::*;
 use super::price;
+use super::words::{local_orders, number, order};
 use crate::draw::style::Panel;
 use crate::draw::{Dash, Marker, ReferenceLine};
 use crate::figure::below_the_curves;
@@ -58,6 +59,22 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         pictures.extend(errors.draw(case, (name, &caption), out, finish)?);
     }
     Ok(pictures)
+}
+
+/// Quantities by level, each under a name, with their orders.
+pub(super) fn by_level(case: &Case, own: &[&Convergence], (title, name): (&str, fn(&Convergence) -> String)) -> Sheet {
+    let mut levels = distinct(own.iter().flat_map(|c| &c.points).map(|p| &*p.level));
+    levels.sort_by_key(|level| case.levels.iter().position(|l| l.name == *level));
+    let row = |c: &&Convergence| {
+        let value = |level: &&str| {
+            let point = c.points.iter().find(|p| p.level == *level);
+            point.map_or(String::new(), |p| number(Some(p.value)))
+        };
+        let cells = levels.iter().map(value).chain([order(c), local_orders(c)]);
+        [name(c)].into_iter().chain(cells).collect()
+    };
+    let head = [title].into_iter().chain(levels.iter().copied());
+    Sheet::new(head.chain(["order", "between levels"])).with(own.iter().map(row))
 }
 
 /// The changed parameters as part of a file's name.

@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::words::{demand, kind, outcome};
 use crate::record::Failure;
-use crate::score::Scored;
+use crate::score::Scores;
 use crate::score::gate::{Gate, INAPPLICABLE};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
@@ -15,21 +15,22 @@ pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
     write_whole(&path, text.as_bytes())
 }
 
-/// Writes the verdicts on the result of another code. One that stands in the way of its gate is a failure.
+/// Writes the verdicts on results of another code. One that stands in the way of its gate is a failure.
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_scored(scored: &Scored, gate: &Gate, file: &Path) -> Result<(), Error> {
-    let record = &scored.record;
-    let class = format!("{}.{}.{}", record.case, scored.manifest.code.name.0, record.level);
-    let judged = |verdict: &Verdict| match gate.stops(scored, verdict) {
-        true => test(&class, name(verdict), failure(outcome(verdict.outcome), &verdict.source)),
-        false => test(&class, name(verdict), status(verdict)),
-    };
-    let lacking = |name: &str| test(&class, name.to_owned(), failure("not judged", INAPPLICABLE));
-    let mut suite = TestSuite::new(&*record.case);
-    suite.add_test_cases(record.verdicts.iter().map(judged));
-    suite.add_test_cases(gate.lacking(scored).map(lacking));
+pub fn write_scored(scores: &Scores, gate: &Gate, file: &Path) -> Result<(), Error> {
+    let mut suite = TestSuite::new(scores.case.name);
+    for on in scores.judged() {
+        let class = format!("{}.{}.{}", scores.case.name, scores.code, on.0);
+        let judged = |verdict: &Verdict| match gate.stops(on.1, verdict) {
+            true => test(&class, name(verdict), failure(outcome(verdict.outcome), &verdict.source)),
+            false => test(&class, name(verdict), status(verdict)),
+        };
+        let lacking = |name: &str| test(&class, name.to_owned(), failure("not judged", INAPPLICABLE));
+        suite.add_test_cases(on.1.iter().map(judged));
+        suite.add_test_cases(gate.lacking(scores, &on).into_iter().map(lacking));
+    }
     let mut report = Report::new("mpm-verify score");
     report.add_test_suite(suite);
     let text = report.to_string().map_err(|e| Error::file(file, e))?;

@@ -1,6 +1,7 @@
-//! A result of another code, beside ours.
+//! Results of another code, beside ours.
 
-use super::describe::{judged, measured, run_line};
+use super::convergence::by_level;
+use super::describe::{judged, measured, run_line, verdict_line, verification, verification_json};
 use super::document::Document;
 use super::document::terminal::{aligned, cut, wrapped};
 use super::rows;
@@ -12,8 +13,10 @@ use crate::files::{make_folder, write_json, write_whole};
 use crate::foreign::Asked;
 use crate::record::{Record, Status};
 use crate::results::fixed;
-use crate::score::{Scored, gate::Gate};
+use crate::score::{Scored, Scores, gate::Gate};
+use crate::study::convergence::Convergence;
 use crate::study::judge::outcome_of_run;
+use crate::study::summary::CaseStudy;
 use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -32,12 +35,16 @@ pub struct Ours {
 }
 
 impl Ours {
-    /// Those beside which a result is set: from the rows of the working directory, or else of the checkout that the program
+    /// Those beside which each run is set: from the rows of the working directory, or else of the checkout that the program
     /// was built from.
     ///
     /// # Errors
     /// The file of rows is damaged.
-    pub fn beside(scored: &Scored) -> Result<Self, Error> {
+    pub fn beside(scores: &Scores) -> Result<Vec<Self>, Error> {
+        scores.runs.iter().map(Self::of).collect()
+    }
+
+    fn of(scored: &Scored) -> Result<Self, Error> {
         let built = || Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
         let here = PathBuf::from(RESULTS);
         let file = if here.exists() { here } else { built() };
@@ -84,26 +91,26 @@ fn table(scored: &Scored, ours: &Ours) -> Sheet {
     Sheet::new(head).with(std::iter::once(own).chain(others))
 }
 
-/// Title of the result: code, scheme, case, level, parameters.
+/// Title of a run: code, scheme, case, level, parameters.
 fn title(scored: &Scored) -> String {
     let code = &scored.manifest.code;
     let version = code.version.as_ref().map(|v| format!(" {}", v.0));
     let set = scored.record.set.iter().map(|set| format!(", {set}"));
+    let words = [Some(&scored.manifest.scheme), scored.manifest.repeat.as_ref()];
     format!(
         "{} {}{}: {}{} ({})",
         scored.case.name,
-        scored.record.level,
+        scored.name(),
         set.collect::<String>(),
         code.name.0,
         version.unwrap_or_default(),
-        scored.manifest.scheme.0
+        words.into_iter().flatten().map(|line| &*line.0).collect::<Vec<_>>().join(", ")
     )
 }
 
 /// Columns that are missing, and columns that the case does not use.
 fn notes(scored: &Scored) -> Vec<String> {
-    let name = |c: &Asked| format!("{} of the {}", c.header(), c.part.name());
-    let missing: Vec<String> = scored.missing.iter().map(name).collect();
+    let missing: Vec<String> = scored.missing.iter().map(Asked::place).collect();
     let told = [("Not given", &missing), ("Not asked for", &scored.unknown)];
     let told = told.into_iter().filter(|(_, names)| !names.is_empty());
     let listed = |names: &[String]| match names.len().checked_sub(MOST) {
@@ -113,9 +120,37 @@ fn notes(scored: &Scored) -> Vec<String> {
     told.map(|(what, names)| format!("{what}: {}.", listed(names))).collect()
 }
 
-/// On the terminal: what is measured, verdicts, our runs, and the verdict in one line.
+/// Names of runs that are judged together, and the case's quantities by level.
+fn ladders(scores: &Scores) -> impl Iterator<Item = (String, &CaseStudy, Sheet)> {
+    let name = |c: &Convergence| [std::slice::from_ref(&c.metric), &c.set].concat().join(" ");
+    let several = scores.together.iter().filter(|(_, study)| study.records.len() > 1);
+    several.map(move |(runs, study)| {
+        let levels = by_level(scores.case, &study.convergence.iter().collect::<Vec<_>>(), ("quantity", name));
+        (format!("{runs} together"), study, levels)
+    })
+}
+
+/// The verdict: of a run in one line, of a list failures and counts too.
 #[must_use]
-pub fn text(scored: &Scored, ours: &Ours) -> String {
+pub fn verdict(scores: &Scores) -> String {
+    match &scores.runs[..] {
+        [run] if !scores.is_list() => run_line(&run.record),
+        _ => verification(&scores.summary()),
+    }
+}
+
+/// On the terminal: of each run what is measured, verdicts and our runs; of runs together verdicts and orders; the verdict.
+#[must_use]
+pub fn text(scores: &Scores, ours: &[Ours]) -> String {
+    let runs = scores.runs.iter().zip(ours).map(|(run, ours)| of_run(run, ours));
+    let together = ladders(scores).map(|(name, study, levels)| {
+        let verdicts: String = study.verdicts.iter().map(verdict_line).collect();
+        format!("{}\n{verdicts}\n{}\n", wrapped(&name, "", "  "), aligned(levels))
+    });
+    runs.chain(together).collect::<String>() + &verdict(scores)
+}
+
+fn of_run(scored: &Scored, ours: &Ours) -> String {
     let record = &scored.record;
     let mut t = wrapped(&title(scored), "", "  ") + "\n";
     t += &measured(scored.case, record);
@@ -126,12 +161,27 @@ pub fn text(scored: &Scored, ours: &Ours) -> String {
     if let Some(absent) = &ours.absent {
         t += &wrapped(absent, "", "  ");
     }
-    t + &run_line(record)
+    t + if scored.manifest.run > 0 { "\n" } else { "" }
 }
 
-/// As JSON.
+/// As JSON: a run, or a list of runs.
 #[must_use]
-pub fn json(scored: &Scored, ours: &Ours, gate: &Gate) -> Value {
+pub fn json(scores: &Scores, ours: &[Ours], gate: &Gate) -> Value {
+    let mut runs: Vec<Value> = scores.runs.iter().zip(ours).map(|(run, ours)| run_json(run, ours)).collect();
+    let mut all = if scores.is_list() { verification_json(&scores.summary()) } else { runs.remove(0) };
+    if scores.is_list() {
+        let together = ladders(scores).map(
+            |(name, study, _)| json!({"name": name, "verdicts": study.verdicts, "convergence": study.convergence}),
+        );
+        all["runs"] = runs.into();
+        all["together"] = together.collect();
+    }
+    all["exit_code"] = json!(gate.exit_code(scores) as u8);
+    all["refusal"] = json!(gate.refusal(scores));
+    all
+}
+
+fn run_json(scored: &Scored, ours: &Ours) -> Value {
     let record = &scored.record;
     let others = ours.runs.iter();
     let others = others.map(|r| {
@@ -144,8 +194,6 @@ pub fn json(scored: &Scored, ours: &Ours, gate: &Gate) -> Value {
         "case": record.case,
         "level": record.level,
         "set": record.set,
-        "exit_code": gate.exit_code(scored) as u8,
-        "refusal": gate.refusal(scored),
         "outcome": outcome_of_run(record),
         "verdict": sentence(record),
         "metrics": record.metrics,
@@ -164,24 +212,29 @@ fn inert(text: &str) -> String {
 ///
 /// # Errors
 /// A file can't be written.
-pub fn write(scored: &Scored, ours: &Ours, gate: &Gate, folder: &Path) -> Result<(), Error> {
-    let record = &scored.record;
-    let mut document = Document::new(inert(&title(scored)));
-    document.paragraph(sentence(record) + ".");
-    gate.refusal(scored).into_iter().for_each(|refusal| document.paragraph(refusal + "."));
-    let mut beside = table(scored, ours);
-    if let Some(own) = beside.rows.first_mut().and_then(|row| row.first_mut()) {
-        *own = inert(own);
+pub fn write(scores: &Scores, ours: &[Ours], gate: &Gate, folder: &Path) -> Result<(), Error> {
+    let mut document = Document::new(inert(&format!("{}: {}", scores.case.title, scores.code)));
+    gate.refusal(scores).into_iter().for_each(|refusal| document.paragraph(refusal + "."));
+    for (run, ours) in scores.runs.iter().zip(ours) {
+        document.section("", inert(&title(run)));
+        document.paragraph(sentence(&run.record) + ".");
+        let mut beside = table(run, ours);
+        if let Some(own) = beside.rows.first_mut().and_then(|row| row.first_mut()) {
+            *own = inert(own);
+        }
+        document.table("", beside);
+        ours.absent.iter().for_each(|absent| document.paragraph(&**absent));
+        document.table("", verdicts::table(run.record.verdicts.iter().map(|v| (None, v))));
+        for note in notes(run) {
+            document.paragraph(inert(&note));
+        }
     }
-    document.table("", beside);
-    ours.absent.iter().for_each(|absent| document.paragraph(&**absent));
-    document.section("", "Verdicts");
-    let verdicts = record.verdicts.iter().map(|v| (None, v));
-    document.table("", verdicts::table(verdicts));
-    for note in notes(scored) {
-        document.paragraph(inert(&note));
+    for (name, study, levels) in ladders(scores) {
+        document.section("", name);
+        document.table("", levels);
+        document.table("", verdicts::table(study.verdicts.iter().map(|v| (None, v))));
     }
     make_folder(folder)?;
-    write_json(&folder.join("verdicts.json"), &json(scored, ours, gate))?;
+    write_json(&folder.join("verdicts.json"), &json(scores, ours, gate))?;
     write_whole(&folder.join("score.md"), document.markdown().as_bytes())
 }

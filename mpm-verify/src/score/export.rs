@@ -11,7 +11,6 @@ use crate::record::Record;
 use crate::spec::RunSpec;
 use crate::table::{Sheet, Table};
 use crate::verdict::{Kind, Verdict};
-use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
@@ -25,10 +24,10 @@ const START: &str = "start.csv";
 /// The parameters make no scene, the folder has a form, or a file can't be written.
 pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> Result<Vec<String>, Error> {
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
-    let form = folder.join(FILE);
-    if form.symlink_metadata().is_ok() {
+    let form_file = folder.join(FILE);
+    if form_file.symlink_metadata().is_ok() {
         let said = "it is there, and may be filled in; allowed: a folder without it";
-        return Err(Error::file(&form, said));
+        return Err(Error::file(&form_file, said));
     }
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
@@ -53,7 +52,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
         Table::of_columns(columns).write(&folder.join(name))?;
         files.push(name);
     }
-    write_json(&form, &Form::of(case, foreign, spec))?;
+    write_whole(&form_file, form(case, foreign, spec).as_bytes())?;
     let readme = readme((case, foreign), (spec, &parameters), &demands, &files);
     write_whole(&folder.join("README.md"), readme.as_bytes())?;
     files.extend([FILE, "README.md"]);
@@ -79,42 +78,18 @@ fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parame
 }
 
 /// A manifest to fill in. The lines of tables may be taken out: others stand behind them.
-#[derive(Serialize)]
-struct Form<'a> {
-    schema: u32,
-    code: Named,
-    case: &'a str,
-    level: &'a str,
-    parameters: serde_json::Map<String, Value>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    particles: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    series: Option<String>,
-    scheme: &'static str,
-}
-
-#[derive(Serialize)]
-struct Named {
-    name: &'static str,
-}
-
-impl<'a> Form<'a> {
-    fn of(case: &'a Case, foreign: &Foreign, spec: &'a RunSpec) -> Self {
-        let changed = spec.set.iter().filter_map(|set| set.split_once('='));
-        let of_text = |text: &str| serde_json::from_str(text).unwrap_or(json!(text));
-        let parts = foreign.parts();
-        let file = |part: Part| parts.contains(&part).then(|| format!("{}.csv", part.name()));
-        Self {
-            schema: SCHEMA,
-            code: Named { name: "my code" },
-            case: case.name,
-            level: spec.level.name,
-            parameters: changed.map(|(name, text)| (name.to_owned(), of_text(text))).collect(),
-            particles: file(Part::Particles),
-            series: file(Part::Series),
-            scheme: "what it does, in your words",
-        }
-    }
+fn form(case: &Case, foreign: &Foreign, spec: &RunSpec) -> String {
+    let changed = spec.set.iter().filter_map(|set| set.split_once('='));
+    let changed = changed.map(|(name, text)| (name.to_owned(), serde_json::from_str(text).unwrap_or(json!(text))));
+    let parts = foreign.parts().into_iter().map(Part::name);
+    let tables: String = parts.map(|part| format!("  \"{part}\": \"{part}.csv\",\n")).collect();
+    format!(
+        "{{\n  \"schema\": {SCHEMA},\n  \"code\": {{ \"name\": \"my code\" }},\n  \"case\": \"{}\",\n  \"level\": \"{}\",\n  \
+         \"parameters\": {},\n{tables}  \"scheme\": \"what it does, in your words\"\n}}\n",
+        case.name,
+        spec.level.name,
+        Value::Object(changed.collect())
+    )
 }
 
 /// Demands of the case's checks on another code: those on a record whose metrics are all zero, of which only the demand

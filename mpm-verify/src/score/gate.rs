@@ -1,10 +1,9 @@
 //! Whether a result passes as a gate of continuous integration: what must be judged, beside what must not fail.
 
-use super::Scored;
+use super::{Judged, Scores};
 use crate::case::Case;
 use crate::distinct;
 use crate::error::{Error, ExitCode};
-use crate::study::judge::exit_code;
 use crate::verdict::{Kind, Outcome, Verdict};
 
 /// Reason of a demanded check of which there is no verdict.
@@ -26,8 +25,7 @@ impl Gate {
     /// The case has no check of a name: the error names the nearest one.
     pub fn known_to(&self, case: &Case) -> Result<(), Error> {
         let judging = case.checks.iter().filter(|c| matches!(c.kind, Kind::Truth | Kind::Bookkeeping));
-        let judging = judging.filter(|c| c.is_of_run()).map(|c| c.name);
-        let names = distinct(case.wanted.iter().map(|w| w.name).chain(judging));
+        let names = distinct(case.wanted.iter().map(|w| w.name).chain(judging.map(|c| c.name)));
         let Some(unknown) = self.require.iter().find(|name| !names.contains(&&***name)) else {
             return Ok(());
         };
@@ -38,49 +36,52 @@ impl Gate {
         Err(Error::Input(format!("--require: {said}; the nearest is {nearest}")))
     }
 
-    /// Whether a verdict that is not a failure stands in the way.
-    pub(crate) fn stops(&self, scored: &Scored, verdict: &Verdict) -> bool {
+    /// Whether a verdict among `all` that is not a failure stands in the way.
+    pub(crate) fn stops(&self, all: &[Verdict], verdict: &Verdict) -> bool {
         let open = verdict.outcome == Outcome::NotJudged;
-        let wanted = verdict.is_wanted() && (self.strict || judges_nothing(scored));
+        let wanted = verdict.is_wanted() && (self.strict || judges_nothing(all));
         let required = self.require.contains(&verdict.check);
         open && (wanted || required)
     }
 
-    /// Names that must hold and of which there is no verdict.
-    pub(crate) fn lacking<'a>(&'a self, scored: &'a Scored) -> impl Iterator<Item = &'a str> {
-        let judged = |name: &&str| scored.record.verdicts.iter().any(|v| v.check == *name);
-        self.require.iter().map(String::as_str).filter(move |name| !judged(name))
+    /// Names that must hold and of which there is no verdict: those on a run, or on runs together.
+    pub(crate) fn lacking<'a>(&'a self, scores: &Scores, (_, all, are_together): &Judged<'_>) -> Vec<&'a str> {
+        let together = |name: &&str| scores.case.checks.iter().any(|c| c.name == *name && !c.is_of_run());
+        let own = self.require.iter().map(String::as_str).filter(|name| together(name) == *are_together);
+        own.filter(|name| all.iter().all(|v| v.check != *name)).collect()
     }
 
-    /// Why a result does not pass, failures apart; nothing if it does.
+    /// Why results do not pass, failures apart; nothing if they do.
     #[must_use]
-    pub fn refusal(&self, scored: &Scored) -> Option<String> {
-        let all = &scored.record.verdicts;
-        let stopping: Vec<&Verdict> = all.iter().filter(|v| self.stops(scored, v)).collect();
-        let told = stopping.iter().map(|v| match v.is_wanted() {
-            true => format!("{} ({})", v.check, v.source),
-            false => format!("{}, {} ({})", v.check, v.metric, v.source),
-        });
-        let lacking = self.lacking(scored).map(|name| format!("{name} ({INAPPLICABLE})"));
-        let told = distinct(told.chain(lacking));
-        match told.is_empty() {
-            true => None,
-            false => Some(format!("Not passed: not judged: {}", told.join("; "))),
-        }
+    pub fn refusal(&self, scores: &Scores) -> Option<String> {
+        let of = |on: Judged<'_>| {
+            let stopping = on.1.iter().filter(|v| self.stops(on.1, v));
+            let told = stopping.map(|v| match v.is_wanted() {
+                true => format!("{} ({})", v.check, v.source),
+                false => format!("{}, {} ({})", v.check, v.metric, v.source),
+            });
+            let lacking = self.lacking(scores, &on).into_iter().map(|name| format!("{name} ({INAPPLICABLE})"));
+            let told = distinct(told.chain(lacking)).join("; ");
+            let name = if scores.is_list() { format!("{}: ", on.0) } else { String::new() };
+            (!told.is_empty()).then(|| name + &told)
+        };
+        let told: Vec<String> = scores.judged().into_iter().filter_map(of).collect();
+        (!told.is_empty()).then(|| format!("Not passed: not judged: {}", told.join("; ")))
     }
 
     /// How the program should end.
     #[must_use]
-    pub fn exit_code(&self, scored: &Scored) -> ExitCode {
-        match (exit_code(&scored.record), self.refusal(scored)) {
-            (ExitCode::Good, Some(_)) => ExitCode::TruthFailed,
-            (code, _) => code,
+    pub fn exit_code(&self, scores: &Scores) -> ExitCode {
+        let failed = scores.judged().iter().any(|(_, all, _)| all.iter().any(Verdict::failed));
+        match failed || self.refusal(scores).is_some() {
+            true => ExitCode::TruthFailed,
+            false => ExitCode::Good,
         }
     }
 }
 
 /// Whether no wanted quantity was judged.
-fn judges_nothing(scored: &Scored) -> bool {
-    let mut wanted = scored.record.verdicts.iter().filter(|v| v.is_wanted());
+fn judges_nothing(all: &[Verdict]) -> bool {
+    let mut wanted = all.iter().filter(|v| v.is_wanted());
     wanted.all(|v| v.outcome == Outcome::NotJudged)
 }

@@ -5,9 +5,9 @@ use crate::files::read_text;
 use crate::scheme::BasisName;
 use serde::de::{Error as _, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
-use serde_json::Value;
+use serde_json::{Value, value::RawValue};
 use std::fmt;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Name of its file.
 pub const FILE: &str = "score.json";
@@ -15,7 +15,7 @@ pub const FILE: &str = "score.json";
 pub const SCHEMA: u32 = 1;
 /// Most characters of a text.
 const LONGEST: usize = 200;
-/// Most parameters.
+/// Most parameters, and most runs.
 const MOST: usize = 100;
 
 /// A line of text of the user's.
@@ -36,7 +36,7 @@ impl TryFrom<String> for Line {
     }
 }
 
-/// The name of a file beside the manifest.
+/// The name of a file beside the manifest, or in a folder beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
 pub struct FileName(pub String);
@@ -45,11 +45,13 @@ impl TryFrom<String> for FileName {
     type Error = String;
 
     fn try_from(name: String) -> Result<Self, String> {
-        let plain = Path::new(&name).file_name().is_some_and(|n| *n == *name);
-        let short = name.chars().count() <= LONGEST && !name.chars().any(is_unfit);
-        match plain && short && !name.contains(['/', '\\']) {
+        let plain = |part: &str| Path::new(part).file_name().is_some_and(|n| *n == *part);
+        let short = name.chars().count() <= LONGEST && !name.chars().any(|c| is_unfit(c) || c == '\\');
+        match short && name.split('/').count() <= 2 && name.split('/').all(plain) {
             true => Ok(Self(name)),
-            false => Err(format!("file {name:?} where the name of a file beside {FILE} is allowed")),
+            false => {
+                Err(format!("file {name:?} where the name of a file beside {FILE}, or in a folder there, is allowed"))
+            }
         }
     }
 }
@@ -98,40 +100,47 @@ pub struct Cost {
     pub machine: Option<Line>,
 }
 
-/// Reads names and values, in their order. A map of serde's own would hide a name that is there twice.
-fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
-    deserializer.deserialize_map(Assignments)
+/// Names and values, in their order. A map of serde's own would hide a name that is there twice.
+struct Pairs<V>(Vec<(String, V)>);
+
+impl<'de, V: Deserialize<'de>> Deserialize<'de> for Pairs<V> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Pairs(Vec::new()))
+    }
 }
 
-struct Assignments;
-
-impl<'de> Visitor<'de> for Assignments {
-    type Value = Vec<String>;
+impl<'de, V: Deserialize<'de>> Visitor<'de> for Pairs<V> {
+    type Value = Self;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("names of parameters with numbers, booleans or words")
+        f.write_str("names with values")
     }
 
-    fn visit_map<M: MapAccess<'de>>(self, mut map: M) -> Result<Vec<String>, M::Error> {
-        let mut assignments = Vec::new();
-        while let Some((Line(name), value)) = map.next_entry::<Line, Value>()? {
-            let text = match value {
-                Value::Bool(_) | Value::Number(_) => Ok(value.to_string()),
-                Value::String(word) => Line::try_from(word).map(|word| word.0),
-                _ => Err("a number, boolean or word is allowed".to_owned()),
-            };
-            let text = text.map_err(|e| M::Error::custom(format!("{name}: {e}")))?;
-            if assignments.len() == MOST {
-                let said = format!("more parameters than the {MOST} that are allowed");
-                return Err(M::Error::custom(said));
+    fn visit_map<M: MapAccess<'de>>(mut self, mut map: M) -> Result<Self, M::Error> {
+        while let Some((Line(name), value)) = map.next_entry()? {
+            if self.0.len() == MOST {
+                return Err(M::Error::custom(format!("more names than the {MOST} that are allowed")));
             }
-            assignments.push(format!("{name}={text}"));
+            self.0.push((name, value));
         }
-        Ok(assignments)
+        Ok(self)
     }
 }
 
-/// Statements of a code on its result.
+/// Parameters as `name=value`.
+fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>, D::Error> {
+    let assigned = |(name, value): (String, Value)| {
+        let text = match value {
+            Value::Bool(_) | Value::Number(_) => Ok(value.to_string()),
+            Value::String(word) => Line::try_from(word).map(|word| word.0),
+            _ => Err("a number, boolean or word is allowed".to_owned()),
+        };
+        text.map(|text| format!("{name}={text}")).map_err(|e| D::Error::custom(format!("{name}: {e}")))
+    };
+    Pairs::deserialize(deserializer)?.0.into_iter().map(assigned).collect()
+}
+
+/// Statements of a code on a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Manifest {
@@ -151,6 +160,8 @@ pub struct Manifest {
     /// Parameters that are not the case's own, as `name=value`; a name that is there twice stays so.
     #[serde(default, deserialize_with = "assignments")]
     pub parameters: Vec<String>,
+    /// Tells it from others of the same scheme, basis, level and parameters.
+    pub repeat: Option<Line>,
     /// File of the particles at the end.
     pub particles: Option<FileName>,
     /// File of the series.
@@ -160,6 +171,9 @@ pub struct Manifest {
     /// Cost of the run.
     #[serde(default)]
     pub cost: Cost,
+    /// Its number in the list of runs, from one; zero without a list.
+    #[serde(default, rename = "runs")]
+    pub run: usize,
 }
 
 fn bspline2() -> BasisName {
@@ -167,40 +181,57 @@ fn bspline2() -> BasisName {
 }
 
 impl Manifest {
-    /// Reads the manifest in a folder.
+    /// Reads the manifests of the runs in a folder.
     ///
     /// # Errors
-    /// It is missing, no plain file, too large, no JSON, of another schema, or not of this form.
-    pub fn read(folder: &Path) -> Result<Self, Error> {
+    /// The file is missing, no plain file, too large, no JSON, of another schema, or not of this form.
+    pub fn read(folder: &Path) -> Result<Vec<Self>, Error> {
         #[derive(Deserialize)]
-        struct Versioned {
+        struct Versioned<'a> {
             schema: u32,
+            #[serde(borrow)]
+            runs: Option<Vec<Pairs<&'a RawValue>>>,
         }
         let path = folder.join(FILE);
         let text = read_text(&path)?;
-        let refused = |e: serde_json::Error| {
-            let mut said = e.to_string();
-            if let Some(name) = nearest(&said) {
-                said.push_str(&format!("; is `{name}` meant?"));
-            }
-            Error::file(&path, said)
+        let refused = |run: usize, e: serde_json::Error| {
+            let whole = e.to_string();
+            let near = nearest(&whole).map_or(String::new(), |name| format!("; is `{name}` meant?"));
+            let said = match run {
+                0 => &whole,
+                // The place is one in its own keys and those above.
+                _ => whole.split(" at line ").next().unwrap_or_default(),
+            };
+            let run = if run > 0 { format!("run {run}: ") } else { String::new() };
+            Error::file(&path, run + said + &near)
         };
-        let Versioned { schema } = serde_json::from_str(&text).map_err(refused)?;
+        let of_file = |e| refused(0, e);
+        let Versioned { schema, runs } = serde_json::from_str(&text).map_err(of_file)?;
         if schema != SCHEMA {
             let said = format!("schema {schema} where {SCHEMA} is read");
             return Err(Error::file(&path, said));
         }
-        serde_json::from_str(&text).map_err(refused)
+        let Some(runs) = runs else { return Ok(vec![serde_json::from_str(&text).map_err(of_file)?]) };
+        if !(1..=MOST).contains(&runs.len()) {
+            return Err(Error::file(&path, format!("runs: {} where 1 to {MOST} are allowed", runs.len())));
+        }
+        let Pairs(above) = serde_json::from_str::<Pairs<&RawValue>>(&text).map_err(of_file)?;
+        // As if it were alone: with the keys above that it lacks. One that stands once is there twice if it has it.
+        let alone = |(k, Pairs(own)): (usize, &Pairs<&RawValue>)| {
+            let lacks =
+                |key: &str| ["schema", "code", "case"].contains(&key) || !own.iter().any(|(name, _)| name == key);
+            let above = above.iter().filter(|(key, _)| key != "runs" && lacks(key));
+            let pairs = own.iter().chain(above).map(|(key, value)| format!(",{}:{value}", Value::from(&**key)));
+            let text = format!("{{\"runs\":{}{}}}", k + 1, pairs.collect::<String>());
+            serde_json::from_str(&text).map_err(|e| refused(k + 1, e))
+        };
+        runs.iter().enumerate().map(alone).collect()
     }
 
     /// The error that a value of a key is not allowed.
-    pub(super) fn refuse(folder: &Path, key: &str, cause: &Error) -> Error {
-        Error::file(&folder.join(FILE), format!("{key}: {cause}"))
-    }
-
-    /// The path of a file beside it.
-    pub(super) fn beside(folder: &Path, name: &FileName) -> PathBuf {
-        folder.join(&name.0)
+    pub(super) fn refuse(&self, folder: &Path, key: &str, cause: impl fmt::Display) -> Error {
+        let run = if self.run > 0 { format!("run {}: ", self.run) } else { String::new() };
+        Error::file(&folder.join(FILE), format!("{run}{key}: {cause}"))
     }
 }
 
@@ -221,11 +252,13 @@ mod tests {
             let count = format!("a text of {} characters", unfit.chars().count());
             assert!(said.contains(&count), "{said}");
         }
-        for fit in ["a.csv", "a b", ".a", &longest] {
+        for fit in ["a.csv", "a b", ".a", "a/b.csv", &longest] {
             let name = FileName::try_from(fit.to_owned());
             assert_eq!(name, Ok(FileName(fit.to_owned())));
         }
-        for unfit in ["", ".", "..", "/", "/a", "../a", "a/b", "a/", "a\\b", "a\nb", &longer] {
+        for unfit in
+            ["", ".", "..", "/", "/a", "../a", "a/../b", "a/b/c", "./a", "a//b", "a/", "a/..", "a\\b", "a\nb", &longer]
+        {
             let said = FileName::try_from(unfit.to_owned()).unwrap_err();
             assert!(said.starts_with(&format!("file {unfit:?} where")), "{said}");
         }
@@ -234,9 +267,6 @@ mod tests {
             let said = Positive::try_from(unfit).unwrap_err();
             assert!(said.starts_with(&unfit.to_string()), "{said}");
         }
-        let cause = Error::Input("wrong".to_owned());
-        let refused = Manifest::refuse(Path::new("folder"), "level", &cause).to_string();
-        assert_eq!(refused, "folder/score.json: level: wrong");
     }
 
     #[test]
@@ -250,12 +280,12 @@ mod tests {
         let many = |count: usize| Value::Object((0..count).map(|k| (k.to_string(), json!(k))).collect());
         assert_eq!(read(&many(MOST)).unwrap().len(), MOST);
         for (unfit, named) in [
-            (many(MOST + 1), "more parameters than the 100"),
+            (many(MOST + 1), "more names than the 100"),
             (json!({"a": [1]}), "a: a number, boolean or word"),
             (json!({"a": null}), "a: a number, boolean or word"),
             (json!({"a": ""}), "a: a text of 0 characters"),
             (json!({"": 1}), "a text of 0 characters"),
-            (json!([1]), "names of parameters with numbers, booleans or words"),
+            (json!([1]), "names with values"),
         ] {
             let said = read(&unfit).unwrap_err().to_string();
             assert!(said.contains(named), "{said}");
@@ -267,7 +297,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let read = |text: &str| {
             std::fs::write(folder.path().join(FILE), text).unwrap();
-            Manifest::read(folder.path())
+            Manifest::read(folder.path()).map(|mut runs| runs.remove(0))
         };
         let sound = json!({
             "schema": 1, "code": {"name": "a"}, "scheme": "s", "case": "cook", "level": "h2",

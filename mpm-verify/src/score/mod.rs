@@ -6,18 +6,22 @@
 mod columns;
 pub mod export;
 pub mod gate;
+mod legacy;
 pub mod manifest;
+mod vtk;
 mod vtu;
 
 use crate::case::{Case, find_level};
 use crate::cases::find_scored;
 use crate::error::Error;
-use crate::files::require_inside;
+use crate::files::{TABLE, read as read_file, require_inside};
 use crate::foreign::{Asked, Foreign, Gap, Given, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::record::{Measured, Record};
 use crate::spec::RunSpec;
+use crate::study::convergence::convergence;
+use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
 use crate::wanted::{Wanted, settled};
@@ -25,7 +29,93 @@ use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A result of another code, judged.
+/// Checks on runs together that compare with the time steps of our scheme, by case: no code need take these.
+const OF_OUR_STEPS: [(&str, &str); 2] = [("consolidation", "order-space"), ("consolidation", "richardson")];
+
+/// Runs of another code for one case, judged.
+pub struct Scores {
+    /// The case.
+    pub case: &'static Case,
+    /// The code.
+    pub code: String,
+    /// The runs.
+    pub runs: Vec<Scored>,
+    /// Names of runs of one scheme, basis and `repeat`, with verdicts on them together and observed orders.
+    pub together: Vec<(String, CaseStudy)>,
+}
+
+/// Verdicts on a run, or on runs together: their name, and whether they are together.
+pub(crate) type Judged<'a> = (String, &'a [Verdict], bool);
+
+impl Scores {
+    /// Reads and judges the runs in a folder.
+    ///
+    /// # Errors
+    /// The manifest is refused, names what there isn't, has a run or a table twice, or a table can't be read or measured:
+    /// the error names file, run and key or column.
+    pub fn read(folder: &Path) -> Result<Self, Error> {
+        let tables = |of: &Manifest| [&of.particles, &of.series].map(Clone::clone).into_iter().flatten();
+        let method = |run: &Scored| (run.manifest.scheme.clone(), run.manifest.basis, run.manifest.repeat.clone());
+        let whole = |run: &Scored| (method(run), run.record.level.clone(), run.record.parameters.clone());
+        let mut runs = Vec::<Scored>::new();
+        for manifest in Manifest::read(folder)? {
+            let shares = |run: &&Scored| tables(&run.manifest).any(|name| tables(&manifest).any(|own| own == name));
+            if let Some(other) = runs.iter().find(shares) {
+                return Err(manifest.refuse(folder, "tables", format!("{} names one of them too", other.name())));
+            }
+            let run = Scored::of(folder, manifest)?;
+            if let Some(other) = runs.iter().find(|other| whole(other) == whole(&run)) {
+                let said = format!("{} is the same run; allowed: another scheme or `repeat`", other.name());
+                return Err(run.manifest.refuse(folder, "level", said));
+            }
+            runs.push(run);
+        }
+        let Some(first) = runs.first() else { return Err(Error::file(&folder.join(FILE), "no run")) };
+        let (case, code) = (first.case, first.manifest.code.name.0.clone());
+        let together = crate::distinct(runs.iter().map(method)).into_iter().map(|own| {
+            let own: Vec<&Scored> = runs.iter().filter(|run| method(run) == own).collect();
+            let names: Vec<String> = own.iter().map(|run| run.name()).collect();
+            (names.join(", "), together(case, &own))
+        });
+        let together = together.collect();
+        Ok(Self { case, code, together, runs })
+    }
+
+    /// What is said of all runs, as of our own.
+    pub(crate) fn summary(&self) -> Summary {
+        Summary::new("score", self.together.iter().map(|(_, study)| study.clone()).collect())
+    }
+
+    /// Whether the manifest has a list of runs.
+    pub(crate) fn is_list(&self) -> bool {
+        self.runs.iter().any(|run| run.manifest.run > 0)
+    }
+
+    /// The verdicts on each run, then those on runs together.
+    pub(crate) fn judged(&self) -> Vec<Judged<'_>> {
+        let runs = self.runs.iter().map(|run| (run.name(), &run.record.verdicts[..], false));
+        let together = self.together.iter().map(|(runs, s)| (format!("{runs} together"), &s.verdicts[..], true));
+        runs.chain(together).collect()
+    }
+}
+
+/// Runs of one method with the verdicts of the case's own checks on runs together, and the orders that show.
+fn together(case: &Case, runs: &[&Scored]) -> CaseStudy {
+    let mut study = CaseStudy::new(case.name, runs.iter().map(|run| run.record.clone()).collect());
+    let missing = crate::distinct(runs.iter().flat_map(|run| &run.missing).map(Asked::place)).join(", ");
+    let why = |v: &Verdict| match [v.value, v.reference, v.tolerance].into_iter().flatten().any(f64::is_nan) {
+        _ if OF_OUR_STEPS.contains(&(case.name, &*v.check)) => Some("against time steps of our scheme".to_owned()),
+        true => Some(format!("the runs do not give all that it compares (missing: {missing})")),
+        false => runs.iter().find_map(|run| open(&run.gaps, v)),
+    };
+    if runs.len() > 1 {
+        study.verdicts = demands(case.judge_study(&study.records), why).collect();
+        study.convergence = convergence(case, &study.records);
+    }
+    study
+}
+
+/// A run of another code, judged.
 pub struct Scored {
     /// Manifest of the result.
     pub manifest: Manifest,
@@ -37,21 +127,25 @@ pub struct Scored {
     pub missing: Vec<Asked>,
     /// Columns that are there and that the case knows nothing of.
     pub unknown: Vec<String>,
+    /// Metrics that the rows leave open.
+    gaps: Vec<(Metric, Gap)>,
 }
 
 impl Scored {
-    /// Reads and judges the result in a folder.
-    ///
-    /// # Errors
-    /// The manifest is refused, names what there isn't, or a table can't be read or measured: the error names file and
-    /// key or column.
-    pub fn read(folder: &Path) -> Result<Self, Error> {
-        let manifest = Manifest::read(folder)?;
-        let refuse = |key: &'static str| move |e: Error| Manifest::refuse(folder, key, &e);
-        let (case, foreign) = find_scored(&manifest.case.0).map_err(refuse("case"))?;
-        let level = find_level(case, &manifest.level.0).map_err(refuse("level"))?;
+    /// Its name among the runs.
+    pub(crate) fn name(&self) -> String {
+        match self.manifest.run {
+            0 => self.record.level.clone(),
+            run => format!("run {run} ({})", self.record.level),
+        }
+    }
+
+    fn of(folder: &Path, manifest: Manifest) -> Result<Self, Error> {
+        let refuse = |key: &str, e: Error| manifest.refuse(folder, key, e);
+        let (case, foreign) = find_scored(&manifest.case.0).map_err(|e| refuse("case", e))?;
+        let level = find_level(case, &manifest.level.0).map_err(|e| refuse("level", e))?;
         let set = manifest.parameters.clone();
-        let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters")(e.into()))?;
+        let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters", e.into()))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
         let (tables, lines) = tables(folder, &manifest, foreign)?;
@@ -87,7 +181,7 @@ impl Scored {
             }
         }
         record.verdicts = judge(case, foreign, &given, &gaps, &record);
-        Ok(Self { manifest, case, record, missing, unknown })
+        Ok(Self { manifest, case, record, missing, unknown, gaps })
     }
 }
 
@@ -104,7 +198,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
             continue;
         };
         require_inside(folder, Path::new(&name.0))?;
-        let path = Manifest::beside(folder, name);
+        let path = folder.join(&name.0);
         let table = match path.extension().and_then(|e| e.to_str()) {
             Some("csv") => {
                 let (table, own) = columns::read(&path)?;
@@ -113,10 +207,13 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
                 }
                 table
             }
-            Some("vtu" | "vtp") if part == Part::Particles => vtu::read(&path)?,
+            Some(kind @ ("vtk" | "vtp" | "vtu")) if part == Part::Particles => {
+                let read = if kind == "vtk" { legacy::table } else { vtu::table };
+                read(&read_file(&path, TABLE)?).map_err(|said| Error::file(&path, said))?
+            }
             _ => {
                 let allowed = match part {
-                    Part::Particles => "a .csv, .vtu or .vtp file",
+                    Part::Particles => "a .csv, .vtu, .vtp or .vtk file",
                     Part::Series => "a .csv file",
                 };
                 let said = format!("{} {:?}; allowed: {allowed}", part.name(), name.0);
@@ -137,30 +234,37 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
 /// what is measured from a column that is missing, or left open by the rows of the series, is not judged. A wanted quantity
 /// that no column gives is not asked for.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
-    let unjudged = |v: Verdict, why: String| Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v };
-    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
-    let verdicts: Vec<Verdict> = case.verdicts(record).into_iter().filter(of_code).collect();
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
+    let why = |v: &Verdict| {
+        let lacking = group_of(v).into_iter().flat_map(|g| g.columns).filter(|c| !given.has(c)).map(Asked::place);
+        let lacking: Vec<String> = lacking.collect();
+        match lacking.is_empty() {
+            true => open(gaps, v),
+            false => Some(format!("missing: {}", lacking.join(", "))),
+        }
+    };
+    let verdicts: Vec<Verdict> = demands(case.verdicts(record), why).collect();
     let is_given = |w: &&Wanted| {
         let mut own = verdicts.iter().filter(|v| w.is_judged_by(&v.check)).peekable();
         own.peek().is_none() || own.any(|v| group_of(v).is_some())
     };
     let wanted: Vec<Wanted> = case.wanted.iter().filter(is_given).copied().collect();
-    let judged = verdicts.into_iter().filter_map(|v| {
-        let group = group_of(&v)?;
-        let mut lacking = group.columns.iter().filter(|c| !given.has(c)).peekable();
-        if lacking.peek().is_none() {
-            let mut open = gaps.iter().filter(|(metric, _)| metric.name == v.metric);
-            return match open.find_map(|(_, gap)| gap.refusal(v.tolerance)) {
-                Some(why) => Some(unjudged(v, why)),
-                None => Some(v),
-            };
-        }
-        let lacking = lacking.map(|c| format!("{} of the {}", c.header(), c.part.name()));
-        let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
-        Some(unjudged(v, why))
-    });
-    settled(&wanted, judged.collect())
+    settled(&wanted, verdicts.into_iter().filter(|v| group_of(v).is_some()).collect())
+}
+
+/// The demands on every code among verdicts, without known limits of our schemes. One with a reason is not judged.
+fn demands(all: Vec<Verdict>, why: impl Fn(&Verdict) -> Option<String>) -> impl Iterator<Item = Verdict> {
+    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
+    all.into_iter().filter(of_code).map(move |v| match why(&v) {
+        Some(why) => Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v },
+        None => v,
+    })
+}
+
+/// Why the rows leave a verdict open, if they do.
+fn open(gaps: &[(Metric, Gap)], v: &Verdict) -> Option<String> {
+    let mut own = gaps.iter().filter(|(metric, _)| metric.name == v.metric);
+    own.find_map(|(_, gap)| gap.refusal(v.tolerance))
 }
 
 #[cfg(test)]

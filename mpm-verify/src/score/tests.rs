@@ -2,6 +2,7 @@
 
 mod coverage;
 mod gate;
+mod together;
 
 use super::*;
 use crate::cases::find_scored;
@@ -58,8 +59,13 @@ impl Answer {
         fs::write(self.path(FILE), manifest.to_string()).unwrap();
     }
 
+    fn scores(&self) -> Result<Scores, Error> {
+        Scores::read(&self.folder.path().join("out"))
+    }
+
+    /// Of the only run.
     fn score(&self) -> Result<Scored, Error> {
-        Scored::read(&self.folder.path().join("out"))
+        self.scores().map(|mut scores| scores.runs.remove(0))
     }
 
     /// Changes the numbers of a column of the series; without, it is taken away.
@@ -154,7 +160,7 @@ fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
     let said = refused("series", json!("particles.vtu"));
     assert!(said.contains("series \"particles.vtu\"; allowed: a .csv file"), "{said}");
     let said = refused("particles", json!("particles.txt"));
-    assert!(said.contains("particles \"particles.txt\"; allowed: a .csv, .vtu or .vtp file"), "{said}");
+    assert!(said.contains("particles \"particles.txt\"; allowed: a .csv, .vtu, .vtp or .vtk file"), "{said}");
     refused("series", Value::Null);
     let said = refused("particles", Value::Null);
     assert!(said.contains("no table; this case is scored by: particles, series"), "{said}");
@@ -258,9 +264,9 @@ fn words_of_a_result_are_words_on_the_page() {
     result.change(SETTLED, None);
     let series = result.text("series.csv").replace("base_pressure (-)", "<img onerror=x>");
     fs::write(result.path("series.csv"), series).unwrap();
-    let scored = result.score().unwrap();
-    let ours = crate::report::scored::Ours::beside(&scored).unwrap();
-    crate::report::scored::write(&scored, &ours, &gate::gate(false, &[]), &result.path("")).unwrap();
+    let scores = result.scores().unwrap();
+    let ours = crate::report::scored::Ours::beside(&scores).unwrap();
+    crate::report::scored::write(&scores, &ours, &gate::gate(false, &[]), &result.path("")).unwrap();
     let page = result.text("score.md");
     for active in ["<script", "<img", "<i>", "[a](", "![p]("] {
         assert!(!page.contains(active), "{active}: {page}");

@@ -1,55 +1,21 @@
 //! Particles from an unstructured grid or polygonal data of VTK, as other codes and ParaView write them: one piece, whose
 //! points and point data become columns; in ASCII, or binary in place or appended, plain or compressed by zlib.
 
-use crate::error::Error;
-use crate::files::{TABLE, read as read_file};
+use super::vtk::{self, MOST, lowest_first};
 use crate::table::Table;
 use flate2::read::ZlibDecoder;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::cell::Cell;
-use std::collections::HashSet;
 use std::io::Read;
-use std::path::Path;
 
-/// Most points, and most compressed blocks of an array.
-const MOST: usize = 5_000_000;
+/// Most compressed blocks of an array.
 const MOST_BLOCKS: u64 = 100_000;
 /// Most bytes that arrays come to, over those of the file, and more for a small one.
 const MOST_PACKED: u64 = 64;
 const SMALL: u64 = 1 << 20;
 /// The element behind whose mark the numbers of all arrays may stand.
 const APPENDED: &[u8] = b"<AppendedData";
-const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
-/// A vector or tensor: its name, unit, number of components, and columns of some of these.
-type Parts = (&'static str, &'static str, usize, &'static [(usize, &'static str)]);
-
-/// Vectors and tensors with the columns of their components; of a symmetric tensor VTK has xx, yy, zz, xy, yz and xz.
-const PARTS: [Parts; 5] = [
-    ("reference", "m", 3, &[(0, "reference_x (m)"), (1, "reference_y (m)"), (2, "reference_z (m)")]),
-    ("displacement", "m", 3, &[(0, "ux (m)"), (1, "uy (m)"), (2, "uz (m)")]),
-    ("plateau_displacement", "m", 3, &[(0, "plateau_ux (m)"), (1, "plateau_uy (m)")]),
-    ("stress", "Pa", 6, &[(0, "stress_xx (Pa)"), (1, "stress_yy (Pa)"), (2, "stress_zz (Pa)"), (3, "stress_xy (Pa)")]),
-    ("stress", "Pa", 9, &[(0, "stress_xx (Pa)"), (4, "stress_yy (Pa)"), (8, "stress_zz (Pa)"), (1, "stress_xy (Pa)")]),
-];
-
-/// Types of numbers: their name, bytes and value.
-type Kind = (&'static str, usize, fn([u8; 8]) -> f64);
-
-/// From the first bytes, the lowest first.
-const KINDS: [Kind; 10] = [
-    ("Float64", 8, f64::from_le_bytes),
-    ("Float32", 4, |b| f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("Int64", 8, |b| i64::from_le_bytes(b) as f64),
-    ("UInt64", 8, |b| u64::from_le_bytes(b) as f64),
-    ("Int32", 4, |b| f64::from(i32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("UInt32", 4, |b| f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]]))),
-    ("Int16", 2, |b| f64::from(i16::from_le_bytes([b[0], b[1]]))),
-    ("UInt16", 2, |b| f64::from(u16::from_le_bytes([b[0], b[1]]))),
-    ("Int8", 1, |b| f64::from(b[0] as i8)),
-    ("UInt8", 1, |b| f64::from(b[0])),
-];
-
 /// Layout of all arrays, from the head of a file.
 #[derive(Default)]
 struct Layout {
@@ -64,10 +30,8 @@ struct Layout {
 
 /// An array, as it is described.
 struct Array {
-    name: String,
-    of_points: bool,
+    own: vtk::Array,
     kind: String,
-    components: usize,
     format: String,
     offset: usize,
     text: String,
@@ -76,13 +40,8 @@ struct Array {
 /// Reads a table of particles.
 ///
 /// # Errors
-/// The file can't be read, or is no such grid: the error names the array.
-pub(super) fn read(path: &Path) -> Result<Table, Error> {
-    let bytes = read_file(path, TABLE)?;
-    table(&bytes).map_err(|said| Error::file(path, said))
-}
-
-fn table(bytes: &[u8]) -> Result<Table, String> {
+/// It is no such grid: the error names the array.
+pub(super) fn table(bytes: &[u8]) -> Result<Table, String> {
     let end = bytes.windows(APPENDED.len()).position(|w| w == APPENDED);
     let (head, tail) = bytes.split_at(end.unwrap_or(bytes.len()));
     let head = std::str::from_utf8(head).map_err(|_| "not UTF-8")?;
@@ -94,36 +53,10 @@ fn table(bytes: &[u8]) -> Result<Table, String> {
     let mark = data.iter().position(|b| *b == b'_');
     let data = mark.map_or(&[][..], |mark| &data[mark + 1..]);
     let points = layout.points.ok_or("no piece with NumberOfPoints")?;
-    let (mut columns, mut parts) = (Vec::<(String, Vec<f64>)>::new(), Vec::new());
-    for array in arrays {
-        let numbers = array.numbers(&layout, points, data).map_err(|said| format!("array {:?}: {said}", array.name))?;
-        if array.of_points {
-            for (axis, name) in AXES.iter().enumerate() {
-                let along = numbers.iter().skip(axis).step_by(3).copied();
-                columns.push(((*name).to_owned(), along.collect()));
-            }
-        } else if array.components == 1 {
-            columns.push((array.name, numbers));
-        } else {
-            parts.extend(array.parts(&numbers));
-        }
-    }
-    // A column that is there as a scalar is that one.
-    parts.retain(|(name, _)| !columns.iter().any(|(own, _)| own == name));
-    columns.append(&mut parts);
-    let mut known = HashSet::new();
-    for (name, values) in &columns {
-        if !known.insert(name) {
-            return Err(format!("array {name:?} is there twice"));
-        }
-        if let Some(row) = values.iter().position(|v| !v.is_finite()) {
-            return Err(format!("array {name:?}, point {}: {}", row + 1, values[row]));
-        }
-    }
-    match columns.is_empty() {
-        true => Err("no points and no scalar point data".to_owned()),
-        false => Ok(Table::of_columns(columns)),
-    }
+    vtk::table(arrays.into_iter().map(|array| match array.numbers(&layout, points, data) {
+        Ok(numbers) => Ok((array.own, numbers)),
+        Err(said) => Err(format!("array {:?}: {said}", array.own.name)),
+    }))
 }
 
 /// An attribute of an element, whose name some programs begin with a capital.
@@ -153,7 +86,7 @@ fn described(head: &str, open: usize) -> Result<(Layout, Vec<Array>), String> {
                     "Piece" => layout.read_piece(&e)?,
                     "DataArray" => {
                         let array = Array::of(&e, inside == "Points");
-                        is_read = ["Points", "PointData"].contains(&inside) && array.is_read();
+                        is_read = ["Points", "PointData"].contains(&inside) && array.own.is_read();
                         if is_read {
                             arrays.push(array);
                         }
@@ -184,52 +117,17 @@ impl Array {
             Some(text) => text.trim().parse().unwrap_or(usize::MAX),
             None => or,
         };
-        Self {
-            name: text("Name"),
-            of_points,
-            kind: text("type"),
-            components: number("NumberOfComponents", 1),
-            format: text("format"),
-            offset: number("offset", 0),
-            text: String::new(),
-        }
-    }
-
-    /// Whether it becomes a column, or those of places.
-    fn is_read(&self) -> bool {
-        match self.of_points {
-            true => self.components == 3,
-            false => self.components == 1 || self.kind_of_parts().is_some(),
-        }
-    }
-
-    /// Columns of a vector or tensor that is known by its name, with its unit or without.
-    fn kind_of_parts(&self) -> Option<&'static [(usize, &'static str)]> {
-        let is = |name: &str, unit: &str| self.name == name || self.name == format!("{name} ({unit})");
-        let known = PARTS.iter().find(|(name, unit, count, _)| *count == self.components && is(name, unit));
-        known.map(|(.., columns)| *columns)
-    }
-
-    /// Columns of a vector or tensor; of a stress its mean too.
-    fn parts(&self, numbers: &[f64]) -> Vec<(String, Vec<f64>)> {
-        let part = |k: usize| numbers.iter().skip(k).step_by(self.components).copied();
-        let known = self.kind_of_parts().unwrap_or_default();
-        let mut parts: Vec<_> = known.iter().map(|(k, name)| ((*name).to_owned(), part(*k).collect())).collect();
-        if let [(x, _), (y, _), (z, _), _] = known {
-            let mean = part(*x).zip(part(*y)).zip(part(*z)).map(|((x, y), z)| (x + y + z) / 3.0);
-            parts.push(("mean_stress (Pa)".to_owned(), mean.collect()));
-        }
-        parts
+        let own = vtk::Array { name: text("Name"), of_points, components: number("NumberOfComponents", 1) };
+        Self { own, kind: text("type"), format: text("format"), offset: number("offset", 0), text: String::new() }
     }
 
     fn numbers(&self, layout: &Layout, points: usize, data: &[u8]) -> Result<Vec<f64>, String> {
-        let count = points * self.components;
+        let count = points * self.own.components;
         let short = || format!("not {count} numbers");
         let numbers: Vec<f64> = match &*self.format {
             "ascii" => {
                 let words = self.text.split_ascii_whitespace().take(count + 1);
-                let numbers = words.map(|w| w.parse().map_err(|_| format!("{w:?} is no number")));
-                numbers.collect::<Result<_, _>>()?
+                words.map(vtk::number).collect::<Result<_, _>>()?
             }
             "binary" => self.unpack(layout, count, &mut Base64::new(self.text.as_bytes()))?,
             "appended" => {
@@ -251,8 +149,8 @@ impl Array {
 
     /// Unpacks `count` numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.
     fn unpack(&self, layout: &Layout, count: usize, from: &mut impl Read) -> Result<Vec<f64>, String> {
-        let known = KINDS.iter().find(|(name, ..)| *name == self.kind);
-        let (_, size, value) = known.ok_or_else(|| format!("type {:?}", self.kind))?;
+        let kind = vtk::kind(&self.kind)?;
+        let (_, size, _) = kind;
         let whole = (count * size) as u64;
         layout.spend(8 * count as u64)?;
         let wrong = |what: &str| format!("{what}, where {whole} bytes are described");
@@ -284,8 +182,7 @@ impl Array {
         if bytes.len() as u64 != whole {
             return Err(wrong(&format!("{} bytes", bytes.len())));
         }
-        let numbers = bytes.chunks_exact(*size).map(|bytes| value(layout.lowest_first(bytes)));
-        Ok(numbers.collect())
+        Ok(vtk::numbers(kind, &bytes, layout.big_endian))
     }
 }
 
@@ -328,23 +225,13 @@ impl Layout {
         Ok(())
     }
 
-    /// Up to eight bytes, the lowest first.
-    fn lowest_first(&self, bytes: &[u8]) -> [u8; 8] {
-        let mut all = [0; 8];
-        all[..bytes.len()].copy_from_slice(bytes);
-        if self.big_endian {
-            all[..bytes.len()].reverse();
-        }
-        all
-    }
-
     /// A number of a header.
     fn header(&self, from: &mut impl Read) -> Result<u64, String> {
         let mut bytes = [0; 8];
         let own = &mut bytes[..if self.long_headers { 8 } else { 4 }];
         from.read_exact(own).map_err(|_| "no header".to_owned())?;
         let own = own.to_vec();
-        Ok(u64::from_le_bytes(self.lowest_first(&own)))
+        Ok(u64::from_le_bytes(lowest_first(&own, self.big_endian)))
     }
 }
 
@@ -362,19 +249,15 @@ impl<'a> Base64<'a> {
 
     /// Decodes the next four characters.
     fn fill(&mut self) {
-        let mut group = 0_u32;
-        let mut bits = 0;
+        let (mut group, mut bits) = (0_u32, 0);
         for _ in 0..4 {
-            let Some(c) = self.text.find(|c| !c.is_ascii_whitespace()) else {
-                return;
-            };
-            let digit = match c {
-                b'A'..=b'Z' => c - b'A',
-                b'a'..=b'z' => c - b'a' + 26,
-                b'0'..=b'9' => c - b'0' + 52,
-                b'+' => 62,
-                b'/' => 63,
-                b'=' => {
+            let digit = match self.text.find(|c| !c.is_ascii_whitespace()).copied() {
+                Some(c @ b'A'..=b'Z') => c - b'A',
+                Some(c @ b'a'..=b'z') => c - b'a' + 26,
+                Some(c @ b'0'..=b'9') => c - b'0' + 52,
+                Some(b'+') => 62,
+                Some(b'/') => 63,
+                Some(b'=') => {
                     group <<= 6;
                     continue;
                 }

@@ -3,12 +3,13 @@
 
 use super::{anchor, pictures, run};
 use crate::draw::sketch;
+use crate::report::convergence::by_level;
 use crate::report::document::{Cell, Document, Row, Table, Text};
 use crate::report::faults::{self, Fault};
 use crate::report::prelude::*;
 use crate::report::price::Prices;
 use crate::report::verdicts::{self, tightest};
-use crate::report::words::{OUTCOMES, kind, local_orders, made_by, number, order};
+use crate::report::words::{OUTCOMES, kind, made_by, number};
 use crate::spec::Level;
 
 pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
@@ -109,7 +110,7 @@ fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
     let tables = case.quantities.iter().filter_map(|q| {
         let own = study.convergence.iter();
         let own: Vec<_> = own.filter(|c| c.set == case.ladder && c.metric == q.metric.name).collect();
-        (!own.is_empty()).then(|| (q, by_level(case, &own)))
+        (!own.is_empty()).then(|| (q, by_level(case, &own, ("scheme", |c| c.scheme.to_string()))))
     });
     let mut tables: Vec<(&Quantity, Sheet)> = tables.collect();
     if tables.is_empty() {
@@ -134,22 +135,6 @@ fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
         "Orders by least squares, with 95 % confidence (Student's t); of a value without a reference, Richardson's. All sets of \
          parameters: [convergence.csv]({name}/convergence.csv), [study.json]({name}/study.json)."
     )));
-}
-
-/// A quantity, scheme by level.
-fn by_level(case: &Case, own: &[&Convergence]) -> Sheet {
-    let mut levels = distinct(own.iter().flat_map(|c| &c.points).map(|p| &*p.level));
-    levels.sort_by_key(|level| case.levels.iter().position(|l| l.name == *level));
-    let row = |c: &&Convergence| {
-        let value = |level: &&str| {
-            let point = c.points.iter().find(|p| p.level == *level);
-            point.map_or(String::new(), |p| number(Some(p.value)))
-        };
-        let cells = levels.iter().map(value).chain([order(c), local_orders(c)]);
-        [c.scheme.to_string()].into_iter().chain(cells).collect()
-    };
-    let head = ["scheme"].into_iter().chain(levels.iter().copied());
-    Sheet::new(head.chain(["order", "between levels"])).with(own.iter().map(row))
 }
 
 /// Most checks that a line names.

@@ -15,12 +15,12 @@ fn with_series(case: &str, level: &str, columns: &[(&str, Vec<f64>)]) -> Answer 
 type Change = fn(&mut Vec<(f64, f64)>);
 
 /// The inviscid front, told as that of a code, after `change` of its rows.
-fn front(change: Change) -> Result<Scored, Error> {
+fn front(change: Change) -> Result<Scores, Error> {
     let curve = Answer::exported("dam-break", "h0.5", &[]);
     let mut rows = Table::read(&curve.path("reference-front.csv")).unwrap().points("time", "front");
     change(&mut rows);
     let (time, front) = rows.into_iter().unzip();
-    with_series("dam-break", "h0.5", &[("time (s)", time), ("front (m)", front)]).score()
+    with_series("dam-break", "h0.5", &[("time (s)", time), ("front (m)", front)]).scores()
 }
 
 /// Outcome and source of the checks of a name.
@@ -33,7 +33,7 @@ fn found(scored: &Scored, check: &str) -> Vec<(Outcome, String)> {
 fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
     let sound = front(|_| ()).unwrap();
     for check in ["front", "arrival"] {
-        assert_eq!(found(&sound, check)[0].0, Outcome::Right, "{:?}", found(&sound, check));
+        assert_eq!(found(&sound.runs[0], check)[0].0, Outcome::Right, "{:?}", found(&sound.runs[0], check));
     }
     // The pressure behind the gate, which no column gives, is not asked for.
     assert!(gate::gate(true, &["front"]).refusal(&sound).is_none());
@@ -47,10 +47,10 @@ fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
     for (change, named) in changes {
         let scored = front(change).unwrap();
         for check in ["front", "arrival"] {
-            let (outcome, source) = found(&scored, check).remove(0);
+            let (outcome, source) = found(&scored.runs[0], check).remove(0);
             assert!(outcome == Outcome::NotJudged && source.contains(named), "{check} {outcome:?}: {source}");
         }
-        assert!(scored.record.metrics["arrival_error"].value.is_none());
+        assert!(scored.runs[0].record.metrics["arrival_error"].value.is_none());
         assert!(gate::gate(false, &[]).refusal(&scored).is_some());
     }
 }

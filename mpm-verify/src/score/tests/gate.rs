@@ -8,10 +8,10 @@ use crate::score::gate::Gate;
 const BASE: &str = "base_pressure (-)";
 
 /// A result for the column without some columns of its series.
-fn without(lost: &[&str]) -> Scored {
+fn without(lost: &[&str]) -> Scores {
     let result = Answer::of_column();
     lost.iter().for_each(|column| result.change(column, None));
-    result.score().unwrap()
+    result.scores().unwrap()
 }
 
 pub(super) fn gate(strict: bool, require: &[&str]) -> Gate {
