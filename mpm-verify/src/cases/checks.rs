@@ -25,7 +25,7 @@ pub(super) fn quadratic<P: ParameterSet>(
     largest: Metric,
     ratio: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
 ) -> CheckOf<P> {
-    CheckOf::truth("quadratic", "Newton's method, near the solution of every step: some iteration contracts the residual as contractions that are squared have to, by √(sτ/r) at least, s the ratio of stiffnesses by which their constant grows; at a linear rate none does")
+    CheckOf::truth("quadratic", "Newton near the solution of every step: some iteration contracts the residual by √(sτ/r) at least, s the ratio of stiffnesses")
         .when(move |r: &Run<P>| r.metric(largest).is_finite())
         .at_most(largest, move |r| ratio(r).sqrt())
 }

@@ -121,7 +121,7 @@ fn checks() -> Vec<Check> {
             .when(|r| rests(r) && is_long(r) && grows(r))
             .above(KINETIC_GROWTH, |_| GROWN)
             .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)"),
-        Gate::truth("no-growth", "GIMP and quadratic splines except fbar-recursive and null-mode-grows, at least 10⁵ steps: peak kinetic energy of the last third at most that of the middle third, and rounding")
+        Gate::truth("no-growth", "GIMP, quadratic splines, not fbar-recursive, from 10⁵ steps: peak kinetic energy of the last third at most the middle third's, and rounding")
             .when(|r| rests(r) && is_long(r) && !grows(r))
             .at_most(KINETIC_GROWTH, |r| 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; a random walk of last bits excepted"),

@@ -144,14 +144,14 @@ fn checks() -> Vec<Check> {
     type Demand = crate::demand::Demand<Moved>;
     let left = |b: &Run<Moved>| if b.is_implicit() { b.tolerance * STEPS as f64 } else { 0.0 };
     vec![
-        Check::truth("affine", "apic, at walls as well, and flip three cells inside: displacement, velocity and stress of a constant gradient of velocity are exact within what the stress moves, what moments change as particles move, with flip the strain of the lattice, and rounding")
+        Check::truth("affine", "apic, and flip three cells inside: motion and stress of a constant ∇v exact within what stress moves, moments change and (flip) the lattice strains")
             .when(|b| b.strain > 0.0 && b.damping == 0.0)
             .when(|b| b.is_affine() || b.scheme == Scheme::flip(b.basis(), b.remedy()))
             .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
             .unless(|b| (b.remedy() != RemedyName::None).then(|| "an average reaches from the sides to all particles".to_owned()))
             .each([DISPLACEMENT_ERROR, VELOCITY_ERROR, STRESS_ERROR].map(|of| Demand::at_most(of, |b: &Run<Moved>| b.affine_bound())))
             .because("APIC keeps an affine field wherever particles lie (Jiang et al. 2015); nodes amid a regular lattice have their mass' centre"),
-        Check::truth("filter", "xpic2, at walls and sides as well: of a constant gradient of velocity it keeps what (1 − S S⁺)² leaves to lines of particles, within twenty times what functions change as particles move")
+        Check::truth("filter", "xpic2: of a constant ∇v it keeps what (1 − S S⁺)² leaves to lines of particles, within twenty times what functions change in motion")
             .when(|b| b.strain > 0.0 && b.fall == 0.0 && b.transfer() == TransferName::Xpic2)
             .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
             .at_most(VELOCITY_ERROR, |b| b.affine_bound())
@@ -160,7 +160,7 @@ fn checks() -> Vec<Check> {
             .when(|b| b.strain == 0.0 && b.fall > 0.0)
             .each([DISPLACEMENT_ERROR, VELOCITY_ERROR].map(|of| Demand::at_most(of, move |b: &Run<Moved>| ROUNDING + left(b))))
             .because("central differences, the midpoint rule and Newmark's are exact where the acceleration is constant, if it is there at the start"),
-        Check::truth("damping-is-booked", "local damping in free fall: the work that the program books is α of gravity's on the way that the nodes have before each step, to rounding")
+        Check::truth("damping-is-booked", "local damping in free fall: booked work is α of gravity's on the way that nodes have before each step, to rounding")
             .when(|b| b.strain == 0.0 && b.fall > 0.0 && b.damping > 0.0)
             .within(DAMPED_RATIO, |_| 1.0, |_| ROUNDING)
             .because("docs/patch.md"),

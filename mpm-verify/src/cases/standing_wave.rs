@@ -206,7 +206,7 @@ fn checks() -> Vec<Check> {
     vec![
         mass(),
         rests(
-            "without an amplitude or gravity: rms displacement at the end at most ρ g h H/2K: a wall's pressure may be off by a quarter of a cell's head, over the depth, twice when it is let go",
+            "no amplitude or no gravity: final rms displacement at most ρ g h H/2K, twice a quarter of a cell's head over the depth",
             |r| 0.5 * compression(r) * r.h,
         ),
         motion_lost(|_| Some("the phase is lost, or particles have left their order, as only what Π sees is stiff (docs/modes.md)")),
@@ -214,7 +214,7 @@ fn checks() -> Vec<Check> {
             .when(|r| r.remedy() == RemedyName::None && r.basis() == Gimp && moves(&r.values))
             .above(FREQUENCY_ERROR, |r| tolerance(r))
             .because("every particle's volume is a constraint"),
-        Gate::truth("frequency", "F̄ over two periods (twenty for GIMP with an unseen stiffness above the pressure), implicit quadratic splines against their steps' frequency: relative error at most ½ (kh)² + 1 %")
+        Gate::truth("frequency", "F̄ over two periods (twenty with GIMP and an unseen stiffness above the pressure), implicit splines: relative error at most ½ (kh)² + 1 %")
             .when(|r| {
                 let averaged = r.remedy() != RemedyName::None && (is_short(r) || is_held(r) && r.basis() == Gimp);
                 (averaged || r.remedy() == RemedyName::None || r.is_implicit() && r.basis() == Bspline2) && moves(&r.values)
@@ -226,7 +226,7 @@ fn checks() -> Vec<Check> {
             .when(|r| is_held(r) && r.basis() == Gimp)
             .at_most(LOG_JACOBIAN_GAP, |r| 1.0 / r.values.number(HOLD))
             .because("the pressure drives it with no more than itself"),
-        Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy exceeds its start by at most 2 % of the peak kinetic energy, the half-step offset and the initial sound")
+        Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy above its start at most 2 % of the peak kinetic one, half a step and initial sound")
             .when(|r| matches!(r.remedy(), RemedyName::None | FbarConsistent) && r.rule() != Some(RuleName::Newmark))
             .at_most(ENERGY_GAIN, |_| 0.02)
             .because("the force takes what is stored"),

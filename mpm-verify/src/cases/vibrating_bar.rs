@@ -196,7 +196,7 @@ fn checks() -> Vec<Check> {
         Gate::truth("frequency", "relative error of the frequency at most ½ (kh)², except with fbar-recursive and waves of cubic splines with F̄ damped below a twentieth")
             .when(|r| r.remedy() != FbarRecursive && moves(&r.values))
             .own(|r| vec![of_frequency(r)]),
-        Gate::truth("no-energy-gain", "energy above its start, over peak kinetic energy: explicit with a storing remedy at most ½ ωΔt, the half-step offset of velocities; midpoint at most the strain kA")
+        Gate::truth("no-energy-gain", "energy above its start over the peak kinetic one: explicit with a storing remedy at most ½ ωΔt, midpoint at most the strain kA")
             .each([
                 Demand::at_most(ENERGY_GAIN, |r: &Run<()>| offset(0.5 * frequency(&r.values) * r.dt()))
                     .when(|r| r.rule().is_none() && matches!(r.remedy(), RemedyName::None | FbarConsistent))
@@ -222,7 +222,7 @@ fn checks() -> Vec<Check> {
             .when(|r| r.rule() == Some(RuleName::Midpoint))
             .within(ENERGY_END, |r| -r.metric(LUMPING_LOSS), |r| strain(r))
             .because("the rule gives and takes none of a linear body: docs/implicit.md, Eq. (21)"),
-        Gate::truth("newmark-keeps", "newmark, linear functions and GIMP, no remedy: energy at the end that of the discrete mode within the strain kA, with GIMP also the share A/l")
+        Gate::truth("newmark-keeps", "newmark, linear functions and GIMP, no remedy: final energy that of the discrete mode within the strain kA, with GIMP also A/l")
             .when(|r| r.rule() == Some(RuleName::Newmark) && r.remedy() == RemedyName::None)
             .when(|r| matches!(r.basis(), Linear | Gimp) && moves(&r.values) && resolution(r) < PI)
             .within(ENERGY_END, |r| newmark_leaves(r) - 1.0, |r| {
@@ -233,7 +233,7 @@ fn checks() -> Vec<Check> {
             .because("the sine is a mode of the lattice of hats between walls: docs/vibrating-bar.md"),
         Gate::truth("steps-slow", "implicit: frequency over that of the shortest steps equal to 2 arctan(½ ωΔt)/ωΔt, within (kh)² of the deviation and 10⁻⁴")
             .study(steps_slow),
-        Gate::truth("averaging-softens", "linear functions, GIMP, quadratic splines: squared frequency over that without remedy, within (kh)³/(2π), 1 − ¼ (kh)² with fbar-total and fbar-rate, 1 − 0.064 (kh)² (quadratic splines: 1) with fbar-consistent")
+        Gate::truth("averaging-softens", "squared frequency over that without remedy: 1 − ¼ (kh)² (fbar-total, fbar-rate), 1 − 0.064 (kh)² (fbar-consistent; bspline2 1), within (kh)³/2π")
             .when(|r| is_sound(r.remedy()) && !feeds_null_space(r) && softening(r.basis(), r.remedy()).is_some())
             .pairs(|soft, hard| same_but_scheme(soft, hard) && hard.remedy() == RemedyName::None && hard.basis() == soft.basis())
             .within(

@@ -37,7 +37,7 @@ pub(super) fn checks() -> Vec<Check> {
             .unless(not_comparable)
             .at_most(BASE_PRESSURE_ERROR, |c| c.h / HEIGHT + c.errors_of_steps()[1])
             .because(AGAINST_EXACT),
-        Check::truth("order-space", "GIMP, three finest levels with at least two pressure cells in the top layer: settlement and base pressure of order in h at least 2 − 0.15")
+        Check::truth("order-space", "GIMP, three finest levels with two pressure cells in the top layer: settlement and base pressure of order in h at least 1.85")
             .study(orders),
         Check::truth("richardson", "GIMP: settlement at T = 0.1 of the finest level exact in space within the grid convergence index")
             .study(richardson),
@@ -50,7 +50,7 @@ pub(super) fn checks() -> Vec<Check> {
             }),
         // A domain of h/2 that sinks by s ≤ S has the share 2 s/h in the next cell, whose strain is another by h ε′: settlements S
         // differ by 2 ∫ s ε′ dz, at most 2 S q/M₀.
-        Check::truth("small-load", "0.003 M₀, no particle crosses a cell: linear functions and GIMP of the same run differ by at most 2 q/M₀, the reach of domains into the next cell")
+        Check::truth("small-load", "0.003 M₀, no particle crosses a cell: linear functions and GIMP differ by at most 2 q/M₀, the reach of domains into the next cell")
             .when(|c| c.basis() == Linear && c.record.status == Status::Ok && c.load == SMALL)
             .pairs(|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()))
             .at_most(

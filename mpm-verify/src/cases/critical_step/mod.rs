@@ -124,7 +124,7 @@ fn checks() -> Vec<Check> {
     type Check = CheckOf<Step>;
     type Demand = crate::demand::Demand<Step>;
     vec![
-        Check::truth("largest-step", "largest stable step that of linear analysis within 2 %, the resolution of ten halvings and noise growth; above 0.98 where the program's limit is smaller")
+        Check::truth("largest-step", "largest stable step that of linear analysis within 2 %, ten halvings and noise growth; above 0.98 where the program's limit is smaller")
             .when(|s| s.metric(PREDICTED_CFL) > 0.0 && !s.is_small_cut())
             .each([
                 Demand::above(CRITICAL_CFL, |_| 1.0 - SEEN).when(|s| s.metric(PREDICTED_CFL) > 1.0),

@@ -253,7 +253,7 @@ fn checks() -> Vec<Check> {
             .when(|d| d.is_of(Midpoint) && d.step_factor == StepFactor::Hundred && d.is_head_on() && d.jumps())
             .above(ENERGY_GAIN, |_| NO_GAIN)
             .because("gradients that jump at faces, where a step ends by chance"),
-        Check::known_limit("newmark-gains", "newmark head on, at 100 times the explicit step (except linear functions at h = 0.025 m), linear functions and GIMP at 10 times: energy exceeds its start by more than 10⁻³")
+        Check::known_limit("newmark-gains", "newmark head on at 100 steps (not linear, h = 0.025 m), linear and GIMP at 10: energy exceeds its start by more than 10⁻³")
             .when(|d| {
                 let long = match d.step_factor {
                     StepFactor::One => false,

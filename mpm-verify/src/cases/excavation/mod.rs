@@ -223,7 +223,7 @@ fn checks() -> Vec<Check> {
             .when(|c| !c.metric(HANDED_OVER).is_nan())
             .at_most(HANDED_OVER, |_| 0.0)
             .because("a phase begins as the one before it ended"),
-        Check::truth("stands-below-the-limit", "no softening, rough base, factor of safety above one by more than the excess of arcs over the collapse load: the slope stands, whole and cut")
+        Check::truth("stands-below-the-limit", "no softening, rough base, factor of safety above one by more than arcs exceed the collapse load: the slope stands, whole and cut")
             .when(|c| !c.softens() && !c.slides())
             .each(LIMITS.map(|(factor, stands)| {
                 Demand::within(stands, |_| 1.0, |_| 0.0).when(move |c| c.metric(factor) > 1.0 + ARCS)

@@ -202,7 +202,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .unless(|c| (c.coarseness() > 1.0).then(|| "five cells under half of the footing don't resolve the pressure's edge".to_owned()))
             .at_most(CHECKERBOARD_RATIO, |_| BOARD.0)
             .because("a pressure that is resolved is close to its average"),
-        Check::truth("smooth-squares", "rms of σ_m less its plane of best fit in each square of 2h below 0.3 rms σ_m at h ≤ B/20, below 0.5 at B/10")
+        Check::truth("smooth-squares", "rms of σ_m less its plane of best fit in squares of 2h below 0.3 rms σ_m at h ≤ B/20, below 0.5 at B/10")
             .when(|c| c.yields() && c.no_limit().is_none() && c.metric(OSCILLATION_RATIO) >= 0.0)
             .at_most(OSCILLATION_RATIO, |c| (BOARD.2 * c.coarseness()).min(BOARD.1))
             .because("a pressure that is resolved is nearly a plane within two cells, but at the edge of the footing"),
@@ -276,7 +276,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because_of(|c| format!("Eq. (26) averages the average and so diffuses J̄ in time: {}", halving(c))),
         Check::truth("contacts-agree", "all: the load through the barrier is that of held nodes within 2h/B")
             .study(contacts),
-        Check::truth("pressure-order", "fbar-rate, fbar-consistent with nodes on grid lines, over three levels: the error of the contact pressure by B falls with an order of 0.85 to 1.1 (the paper's Figure 9: slightly below one)")
+        Check::truth("pressure-order", "fbar-rate, fbar-consistent, nodes on grid lines, three levels: error of the contact pressure by B of order 0.85 to 1.1 (the paper's Figure 9)")
             .study(orders),
     ]
 }

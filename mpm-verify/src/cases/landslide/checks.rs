@@ -212,7 +212,7 @@ fn of_slide() -> Vec<Check> {
             .when(|c| c.stands())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
-        Check::truth("fails", "reduction beyond the upper bound of limit analysis and h/H for the strength of a band of cells: more than a hundredth of the ground moves by H/20")
+        Check::truth("fails", "strength reduced beyond the upper bound of limit analysis and h/H for a band of cells: over a hundredth of the ground moves by H/20")
             .when(|c| c.must_fail())
             .above(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
@@ -234,7 +234,7 @@ fn of_width() -> Vec<Check> {
             .when(in_space)
             .each([alike(WIDTH_SPREAD_AT_REST), alike(WIDTH_SPREAD_0_5S).when(|c| c.is_unbroken())])
             .because("the problem is that of its section"),
-        Check::truth("plane-strain", "three dimensions: settlement of the crest at rest that in plane strain within 10⁻⁴ without F̄ (also 0.5 s after the reduction), 2 % with fbar-consistent")
+        Check::truth("plane-strain", "three dimensions: crest's settlement at rest that of plane strain within 10⁻⁴ without F̄ (and 0.5 s after the reduction), 2 % with fbar-consistent")
             .when(in_space)
             .each([
                 off(OFF_PLANE_STRAIN_AT_REST, |c| match c.remedy() {

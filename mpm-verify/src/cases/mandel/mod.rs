@@ -113,7 +113,7 @@ fn checks() -> Vec<Check> {
     const SERIES_AND_EQUATIONS: &str = "Mandel's series, and what cells and steps make of it";
     const ORDERS: &str = "linear pressures, mean strains of cells, backward Euler's rule";
     vec![
-        Check::truth("difference-equations", "pressure in the middle and paths of plate and side agree in every step with the eliminated difference equations within 10 F/(G a) of finite strain and its rounding")
+        Check::truth("difference-equations", "central pressure and paths of plate and side agree in every step with the eliminated difference equations, within 10 F/(G a) and its rounding")
             .at_most(EQUATIONS_DISTANCE, |c| c.finite())
             .because("the equations of cells, nodes and plate at small strain, docs/mandel.md"),
         Check::truth("centre-pressure", "error of the pressure in the middle against Mandel's at most that of the difference equations, and 10 F/(G a)")

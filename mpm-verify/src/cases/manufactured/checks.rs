@@ -143,7 +143,7 @@ fn phase(r: &Run<()>) -> f64 {
 pub(in crate::cases) fn of_motion(claims: Claims, wave: Wave) -> Vec<Check> {
     let mut checks = vec![
         mass(),
-        Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of the largest rms of u; implicit 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt, r = ω over the free frequency")
+        Gate::truth("error-bound", "rms error of u at most 0.8 (kh)²/|1 − (ω/kc)²| of its largest rms; implicit 2θ² (⅛ + ⅙ r²/|1 − r²|) more, θ = ωΔt, r = ω/ω₀")
             .unless(move |r| wave.unposed(r).map(str::to_owned))
             .at_most(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
             .because_of(move |r| format!("{:.3} times displacement_scale", wave.bound(r))),

@@ -187,7 +187,7 @@ fn checks() -> Vec<Check> {
             .at_most(ENERGY_GAIN, |r| r.cfl * r.h)
             .because("velocities live half a step before places, in the front alone"),
         exact(
-            Check::truth("energy-loss", "as shock-speed, with a linear artificial viscosity that damps the ringing, steady front: the energy dissipated per second is exact within two cells over the measured way")
+            Check::truth("energy-loss", "as shock-speed, steady front, a linear artificial viscosity that damps the ringing: dissipated power exact within two cells over the measured way")
                 .when(|r| r.is_steady()),
             LOSS_RATE_ERROR,
         ),

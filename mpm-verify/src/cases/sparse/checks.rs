@@ -94,7 +94,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let found = orders(records, |c| c.is_plain() && c.layout == Layout::Lattice).into_iter();
                 found.map(|(about, order)| Finding::above(about, order, FORMAL - SLACK, why)).collect()
             }),
-        Check::truth("noise", "quasi-static quadratic splines, n16 and finer: median stress noise over that of random, four a cell, equal to the ratio of standard deviations of a cell's centre of mass within a quarter").study(noise),
+        Check::truth("noise", "quasi-static quadratic splines from n16: median stress noise over that of random particles, four a cell, as their centres of mass scatter, within a quarter").study(noise),
         Check::truth("softens", "quasi-static quadratic splines, random, n16 and finer: median displacement along the exact one larger than on a lattice of as many particles").study(softens),
         Check::known_limit("no-second-order", "quasi-static quadratic splines, random, four a cell: median error of u over three levels of order at most 1 + 0.15")
             .study(move |records| {
@@ -103,7 +103,7 @@ pub(super) fn checks() -> Vec<Check> {
                 let found = orders(records, four).into_iter();
                 found.map(|(about, order)| Finding::at_most(about, order, OF_NOISE + SLACK, why)).collect()
             }),
-        Check::truth("error-bound", "lattice of at least four a cell: error of u at most 0.8 (kh)², k = 6.5/m, over 1 − (ω/kc)² for a moving body, c the shear wave speed")
+        Check::truth("error-bound", "lattice of at least four a cell: error of u at most 0.8 (kh)², k = 6.5/m, moving over 1 − (ω/kc)², c the shear speed")
             .when(|c| c.ppc_per_direction >= 2 && c.layout == Layout::Lattice)
             .at_most(ERROR_MEDIAN, |c| c.bound())
             .because("the largest dispersion among functions and remedies, docs/manufactured.md"),

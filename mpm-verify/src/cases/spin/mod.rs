@@ -167,7 +167,7 @@ fn checks() -> Vec<Check> {
             .when(|d| d.is_of(Apic))
             .at_most(ANGULAR_MOMENTUM_ERROR, |_| ROUNDING)
             .because("the affine part carries what a node's arm has (Jiang et al. 2015), and stresses are symmetric"),
-        Check::truth("affine-parts-take-their-share", "apic, up to two turns: spin slower by the angular momentum of the affine parts, 4D/R² over one and that, D the mean second moment of the functions, within h/R of it")
+        Check::truth("affine-parts-take-their-share", "apic, up to two turns: spin slower by 4D/R² over one and that, D the functions' mean second moment, within h/R of it")
             .when(|d| d.is_of(Apic) && !d.is_long())
             .within(PHASE_ERROR, |d| -d.affine_share(), |d| d.h / RADIUS * d.affine_share())
             .because("angular momentum is kept, and I ω is then (M R²/2 + 2 M D) ω"),
@@ -175,7 +175,7 @@ fn checks() -> Vec<Check> {
             .when(|d| matches!(d.remedy(), RemedyName::None | FbarConsistent) && !d.is_of(Musl))
             .at_most(ENERGY_GAIN, |d| d.metric(STORED_SHARE))
             .because("velocities live half a step before places: what the disc stores and its motion can exchange, and no more"),
-        Check::truth("stretch", "splines with flip and apic, no remedy, up to two turns: mean stretch of the last half exact within h/R of it and the strain's square")
+        Check::truth("stretch", "splines, flip and apic, no remedy, up to two turns: mean stretch of the last half exact within h/R of it and the squared strain")
             .when(|d| d.is_of(Flip) || d.is_of(Apic))
             .when(|d| d.remedy() == RemedyName::None && d.flip == 1.0)
             .when(|d| d.basis().degree() > 1 && d.basis() != Gimp && !d.is_long())

@@ -163,7 +163,7 @@ fn checks() -> Vec<Check> {
             .when(move |b| !b.is_pulled() && b.is_plain() && b.is_continuous() && !b.has(stops))
             .within(STRESS_KEPT, |_| 1.0, |b| SWING * b.metric(PREDICTED_NOISE))
             .because("neighbours come closer, and no stiffness is negative under pressure"),
-        Check::truth("stops", "explicit, waves of the exact state faster than the step allows: the program stops at that stretch within 2 %, torn or noisy bodies no later")
+        Check::truth("stops", "explicit, waves of the exact state faster than the step allows: the program stops there within 2 % of stretch, torn or noisy bodies no later")
             .when(move |b| b.has(stops))
             .each([
                 Demand::at_most(STOPPED_STRETCH, move |b| b.metric(stops) * (1.0 + SEEN)).when(|b| b.is_pulled()),

@@ -131,7 +131,7 @@ fn checks() -> Vec<Check> {
             .when(|c| c.level == "n80" && c.changes_none_but(&["steps"]))
             .order(PRESSURE_L2, Over::TimeStep, 1.0)
             .because("backward Euler's rule"),
-        Check::truth("functions-agree", "linear functions and GIMP of the same run differ by at most 2 (q/M)/√(πT), the effect of domains sunk into the next cell by q H/M")
+        Check::truth("functions-agree", "linear functions and GIMP differ by at most 2 (q/M)/√(πT), the effect of domains sunk into the next cell by q H/M")
             .when(|c| c.basis() == Linear)
             .pairs(|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()))
             .at_most(

@@ -18,13 +18,13 @@ pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep::of(POISSON_RATIO, "0.5 
 /// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {
     [
-        Gate::truth("no-locking", "fbar-total, fbar-rate, fbar-consistent up to 1 − 2ν = ε², all but linear functions: rms error of u at most 1.2 times that at ν = 0.3, same steps")
+        Gate::truth("no-locking", "F̄ except fbar-recursive, not linear, up to 1 − 2ν = ε²: rms error of u at most 1.2 times that at ν = 0.3")
             .when(|r| ratio(r) != COMPRESSIBLE)
             .when(|r| is_sound(r.remedy()) && r.basis() != Linear && !is_beyond_unseen(r))
             .pairs(is_soft_twin)
             .at_most(|r, _| about(r), factor, |_| LOCKING_FREE)
             .because("the exact motion does not depend on ν; both runs take the same steps"),
-        Gate::known_limit("locks", "none with linear functions and GIMP at ν ≥ 0.499: rms error of u above 1.5 times that at ν = 0.3 at the coarsest level")
+        Gate::known_limit("locks", "none, linear functions and GIMP, ν ≥ 0.499, coarsest level: rms error of u above 1.5 times that at ν = 0.3")
             .study(|records| {
                 let runs: Vec<Run<()>> = Run::all(records).collect();
                 let coarsest = runs.iter().map(|r| r.h).fold(0.0, f64::max);
