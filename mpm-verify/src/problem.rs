@@ -38,6 +38,16 @@ impl<const D: usize> Phase<D> {
         })
     }
 
+    /// Advances by `count` steps, and counts the iterations of Newton's method in them.
+    ///
+    /// # Errors
+    /// The computation broke down.
+    pub fn iterate(&mut self, count: u64) -> Result<u64, mpm_core::Error> {
+        let before = self.run.work().newton_iterations;
+        self.steps(count)?;
+        Ok(self.run.work().newton_iterations - before)
+    }
+
     /// Continues with another simulation: with its own body, or with that of an earlier one.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ impl<P: ParameterSet> Setup<P> {
     /// Particles at these places (m), `spacing` (m) apart, of a density (kg/m³).
     ///
     /// # Errors
-    /// There are none, or a number is out of range.
+    /// No particles, or a number out of range.
     pub(super) fn particles_at<const D: usize>(
         &self,
         places: impl IntoIterator<Item = [f64; D]>,

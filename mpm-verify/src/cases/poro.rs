@@ -61,6 +61,12 @@ pub(super) fn above_rounding(distance: f64) -> f64 {
     if distance < ROUNDING { ROUNDING } else { distance }
 }
 
+/// Volumes of the particles (m³, m² in plane strain, m in one dimension) by their identity.
+pub(super) fn volumes<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
+    let p = run.particles();
+    p.seeded(|k| p.volume[k])
+}
+
 /// Loss of the body's volume since the start (m³, m² in plane strain, m in one dimension).
 pub(super) fn lost_volume<const D: usize>(run: &dyn Simulation<D>) -> f64 {
     let p = run.particles();

@@ -142,8 +142,7 @@ impl Problem<2> for Bending {
     }
 
     fn row(&self, seen: &mut Steps, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
-        let before = phase.run.work().newton_iterations;
-        phase.steps(1)?;
+        let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         let convergence = run.convergence().cloned().unwrap_or_default();
         seen.cut += u64::from(convergence.parts > 1);
@@ -164,7 +163,7 @@ impl Problem<2> for Bending {
             "edge_mean_uy (m)": mean_y,
             "stress_min (Pa)": least,
             "stress_max (Pa)": greatest,
-            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+            "newton_iterations (-)": iterations as f64,
             "residual (-)": last(0),
             "residual_before (-)": last(1),
             "force_ratio (-)": convergence.force_ratio,

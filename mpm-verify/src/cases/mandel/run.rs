@@ -212,8 +212,7 @@ impl Problem<2> for Consolidation {
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
-        let before = phase.run.work().newton_iterations;
-        phase.steps(1)?;
+        let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         seen.steps += 1;
         let step = self.setup.step();
@@ -245,7 +244,7 @@ impl Problem<2> for Consolidation {
             "bulge (-)": own.bulge,
             "bulge_exact (-)": exact.bulge,
             "outflow (m²)": outflow(run),
-            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+            "newton_iterations (-)": iterations as f64,
         })
     }
 

@@ -156,8 +156,7 @@ where
     }
 
     fn row(&self, (): &mut (), phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
-        let before = phase.run.work().newton_iterations;
-        phase.steps(1)?;
+        let iterations = phase.iterate(1)?;
         let errors = self.errors(phase.run.as_mut());
         let run = phase.run.as_ref();
         let (least, most) = run.totals().jacobian;
@@ -171,7 +170,7 @@ where
             "inflow (m)": water.inflow,
             "outflow (m)": water.outflow,
             "water_made (m)": water.imbalance,
-            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+            "newton_iterations (-)": iterations as f64,
             "parts (-)": run.convergence().map_or(0.0, |c| f64::from(c.parts)),
         })
     }

@@ -101,12 +101,11 @@ where
     }
 
     fn row(&self, steps: &mut u64, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
-        let before = phase.run.work().newton_iterations;
-        phase.steps(1)?;
+        let iterations = phase.iterate(1)?;
         *steps += 1;
         let run = phase.run.as_ref();
         let errors = errors::of_displacements(self.0.solution.as_ref(), run);
-        let (totals, work) = (run.totals(), run.work());
+        let totals = run.totals();
         Ok(row! {
             "time (s)": run.time(),
             "displacement_l2 (m)": rms(errors.into_iter()),
@@ -116,7 +115,7 @@ where
             "jacobian_min (-)": totals.jacobian.0,
             "jacobian_max (-)": totals.jacobian.1,
             "log_jacobian_gap_rms (-)": totals.log_jacobian_gap_rms,
-            "newton_iterations (-)": (work.newton_iterations - before) as f64,
+            "newton_iterations (-)": iterations as f64,
             "parts (-)": f64::from(run.convergence().map_or(0, |c| c.parts)),
         })
     }

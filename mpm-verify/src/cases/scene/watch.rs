@@ -184,14 +184,13 @@ where
             phase.enter(self.begin(seen)?, Some(&body))?;
         }
         seen.impulses.resize(self.parts.len(), [0.0; 3]);
-        let iterations = phase.run.work().newton_iterations;
-        phase.steps(self.phase(seen).steps_per_row)?;
+        let iterations = phase.iterate(self.phase(seen).steps_per_row)?;
         (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
         let run = phase.run.as_ref();
         let totals = run.totals();
         let mut row = vec![seen.before + run.time(), totals.kinetic_energy, totals.stored_energy, most_moved(run)];
         if !self.setup.is_explicit() {
-            row.push((run.work().newton_iterations - iterations) as f64);
+            row.push(iterations as f64);
         }
         row.extend(run.water().map(|water| water.outflow));
         row.extend(self.forces(seen, run));

@@ -1,7 +1,7 @@
 //! Derived quantities, scene and observations of half of a strip on a square of soil, or of a quarter of a square on a cube.
 
 use super::*;
-use crate::cases::poro::{above_rounding, matrix_entries, outflow};
+use crate::cases::poro::{above_rounding, matrix_entries, outflow, volumes};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
@@ -20,11 +20,6 @@ const BASE: Part = Part::Constraint(0);
 const NEAR: f64 = 0.5;
 /// Particles are kept after each of this number of parts of the steps.
 const QUARTERS: u64 = 4;
-
-/// A rigid strip, among the scene's constraints: behind the base and two sides an axis.
-const fn rigid_strip(dimension: usize) -> Part {
-    Part::Constraint(1 + 2 * (dimension - 1))
-}
 
 impl Setup<Strip> {
     /// Bulk modulus (Pa) of the soil at rest.
@@ -105,7 +100,8 @@ impl Setup<Strip> {
     /// Load on the strip (Pa) beside that on the whole surface.
     fn current_load<const D: usize>(&self, run: &dyn Simulation<D>) -> f64 {
         if self.is_driven() {
-            run.on(rigid_strip(D)).force[D - 1] / self.area(D)
+            // Among the scene's constraints the strip is behind the base and two sides an axis.
+            run.on(Part::Constraint(1 + 2 * (D - 1))).force[D - 1] / self.area(D)
         } else {
             self.load * run.time() / self.duration
         }
@@ -272,12 +268,6 @@ impl Seen {
 fn has_no_solution(error: &mpm_core::Error) -> bool {
     use mpm_core::Error::{NoConvergence, Singular};
     matches!(error, NoConvergence { .. } | Singular { .. })
-}
-
-/// Volumes of the particles (m³, m² in plane strain) by their identity.
-fn volumes<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
-    let p = run.particles();
-    p.seeded(|k| p.volume[k])
 }
 
 impl<const D: usize> Problem<D> for Setup<Strip>

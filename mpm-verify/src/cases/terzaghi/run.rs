@@ -142,8 +142,7 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {
-        let before = phase.run.work().newton_iterations;
-        phase.steps(1)?;
+        let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         if run.work().steps == 1 {
             seen.overshoot_first_step = self.overshoot(run);
@@ -158,7 +157,7 @@ impl Problem<1> for Setup<Terzaghi> {
             "base_pressure_exact (-)": exact::pressure(1.0, t),
             "overshoot (-)": self.overshoot(run),
             "outflow (m)": outflow(run),
-            "newton_iterations (-)": (run.work().newton_iterations - before) as f64,
+            "newton_iterations (-)": iterations as f64,
         })
     }
 

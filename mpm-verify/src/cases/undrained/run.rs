@@ -37,10 +37,6 @@ pub(super) struct Found {
     errors: [f64; 3],
 }
 
-fn in_ellipse(x: &[f64; 2]) -> bool {
-    ((x[0] - MIDDLE) / HALF_AXES[0]).powi(2) + (x[1] / HALF_AXES[1]).powi(2) < 1.0
-}
-
 /// The exact motion and pressure: u = curl of sin² πx sin² πy, p = cos πx cos πy, over G.
 fn exact([x, y]: &[f64; 2]) -> [f64; 3] {
     let (sx, sy) = ((PI * x).sin(), (PI * y).sin());
@@ -105,6 +101,7 @@ impl Analysis for Body {
         // One more than fit the cells, and domains lie across grid lines in every possible way.
         let more = usize::from(setup.layout == Layout::Across);
         let count = n * setup.points_per_direction + more;
+        let in_ellipse = |x: &[f64; 2]| ((x[0] - MIDDLE) / HALF_AXES[0]).powi(2) + (x[1] / HALF_AXES[1]).powi(2) < 1.0;
         let inside = |x: &[f64; 2]| fitted || in_ellipse(x);
         let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, inside);
         cloud.places = setup.start_at(cloud.places);
