@@ -107,11 +107,11 @@ metrics! { ALL:
     DISSIPATED = "dissipated", "J/m", "what flow has dissipated since the last phase began";
     LOAD_WORK = "load_work", "J/m", "work of gravity, and of a base with friction, since the last phase began";
     BALANCE_ERROR = "balance_error", "-",
-        "midpoint: kinetic energy and work of the stresses since the last phase began, with what the lumped mass and the ghost penalty took, less the work of the load, over its magnitude: largest";
+        "midpoint: kinetic energy and work of the stresses since the last phase began, with what the lumped mass and the ghost penalty took, less the work of the load, over the larger of it and the stored energy: largest";
     MOMENTUM_ERROR = "momentum_error", "-",
         "vertical momentum in the last phase, with the impulse that the base took, less that of the weight, over it: largest";
     ENERGY_GAIN = "energy_gain", "-",
-        "kinetic, stored and dissipated energy since the last phase began less the work of the load, over its magnitude: largest";
+        "kinetic, stored and dissipated energy since the last phase began less the work of the load, over the larger of it and the stored energy: largest";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     MASS = "mass", "kg/m", "mass of the whole slope";
 }

@@ -389,14 +389,15 @@ impl Problem<2> for Ground {
             values.push((FRICTION_RATIO, seen.friction_ratio));
         }
         if seen.motion.work > 0.0 {
+            let exchanged = seen.motion.work.max(seen.energies.stored);
             values.extend([
                 (KINETIC_PEAK, seen.motion.kinetic),
                 (KINETIC_END, run.totals().kinetic_energy / work.abs()),
                 (DISSIPATED, now.dissipated - seen.energies.dissipated),
                 (LOAD_WORK, work),
-                (BALANCE_ERROR, seen.motion.balance / seen.motion.work),
+                (BALANCE_ERROR, seen.motion.balance / exchanged),
                 (MOMENTUM_ERROR, seen.motion.momentum),
-                (ENERGY_GAIN, seen.motion.gain / seen.motion.work),
+                (ENERGY_GAIN, seen.motion.gain / exchanged),
             ]);
         }
         values

@@ -172,6 +172,7 @@ fn plan() -> Plan {
     let averaged = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[FbarConsistent]);
     let statics = implicit(&[QuasiStatic], &[Gimp, Bspline2], &[none, FbarConsistent]);
     let small = &SMALL.join(" ");
+    let near = |ratio: &str| format!("{small} poisson_ratio={ratio}");
     let dense = "ppc_per_direction=4";
     Plan::of(levels(WIDTH, [("b10", 10.0), ("b20", 20.0), ("b40", 40.0), ("b80", 80.0)]))
         .runs(Pr, "b10", &three, small)
@@ -195,6 +196,8 @@ fn plan() -> Plan {
         .runs(Long, "b10 b20 b40 b80", &other_transfers(), "")
         .runs(Long, "b10", &two, dense)
         .runs(Pr, "b10", &averaged[1..], small)
+        .runs(Pr, "b10", &averaged, &near("0.499"))
+        .runs(Pr, "b10", &averaged, &near("0.4995"))
         .runs(Nightly, "b10 b20", &statics, "")
         // Steps of equilibrium at which the finite elements are tabulated, too.
         .runs(Nightly, "b10", &averaged, "load_steps=40")
