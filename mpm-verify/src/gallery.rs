@@ -63,14 +63,6 @@ impl<'a> Gallery<'a> {
         self.read((self.folder)(record)?.join(file))
     }
 
-    /// Whether a run has written a file.
-    ///
-    /// # Errors
-    /// The run is not of this report.
-    pub fn has(&self, record: &Record, file: &str) -> Result<bool, Error> {
-        Ok((self.folder)(record)?.join(file).exists())
-    }
-
     /// The particles that a run has kept at `time` (s), if it has.
     ///
     /// # Errors
