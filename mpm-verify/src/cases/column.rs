@@ -3,10 +3,12 @@
 //! Set-up, choices and tolerances: `docs/column.md`.
 
 use super::family::{self, REMEDIES, pairs};
+use super::manufactured::foreign::{TIME, gaps_of_rest, of_rest};
 use super::manufactured::*;
 use super::parameters::DENSITY;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
+use crate::foreign::Foreign;
 use crate::parameter::Parameter;
 use crate::prelude::*;
 
@@ -85,6 +87,19 @@ pub(super) fn case() -> Case {
             "column",
             "Hydrostatic column",
             "Two metres of water at rest in the exact state of equilibrium, without damping. The printed F̄ creeps at a speed that is known in closed form; a sound remedy neither creeps nor grows anything over half a million steps.",
+        ])
+    }
+}
+
+pub(super) fn foreign() -> Foreign {
+    Foreign {
+        abscissa: Some(TIME),
+        gaps: gaps_of_rest,
+        ..Foreign::of::<2, Motion<2, WaterColumn>>(of_rest::<WaterColumn>(), &[
+            "Plane strain. Water fills 0 ≤ x ≤ `width`, 0 ≤ y ≤ `height` before anything moves; it slides freely along the floor y = 0 and both sides, its surface is free.",
+            "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure; weight `gravity`.",
+            "At t = 0 it is at rest, compressed by its own weight: y and `jacobian` of start.csv say how. No damping; the end is `duration`.",
+            "A drift is judged from 10⁵ steps on, by the means of cells: say `cost.steps`, and begin with the particles of start.csv.",
         ])
     }
 }

@@ -1,19 +1,18 @@
 //! Set-up and observation shared by several problems.
 
-use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
+use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
 use crate::error::Error;
 use crate::job::Column;
-use crate::parameter::{Parameter, ParameterSet, Parameters};
+use crate::parameter::{Parameter, ParameterSet};
 use crate::record::Discretisation;
 use crate::scheme::{RuleName, Scheme};
 use crate::setup::Setup;
-use crate::spec::RunSpec;
 use crate::statistics::rms;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::stage::LocalDamping;
-use mpm_core::{Field, Particles, Simulation};
+use mpm_core::{Field, Simulation};
 
 impl<P: ParameterSet> Setup<P> {
     /// How B-splines meet walls, by the parameter `wall`.
@@ -107,12 +106,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 }
 
-/// Discretisation of a run in `dim` dimensions with steps of `dt` (s).
-pub(super) fn discretisation(dim: usize, spec: &RunSpec, parameters: &Parameters, dt: f64) -> Discretisation {
-    let per_direction = parameters.number(PPC_PER_DIRECTION);
-    Discretisation { dim, h: spec.level.h, ppc: per_direction.powi(dim as i32) as u32, dt, wall: parameters.text(WALL) }
-}
-
 /// Whether a static step has found equilibrium. One that has not leaves the body as it was.
 ///
 /// # Errors
@@ -124,35 +117,6 @@ pub(super) fn finds_equilibrium(step: Result<(), mpm_core::Error>) -> Result<boo
         Err(NoConvergence { .. } | Singular { .. } | Breakdown { .. }) => Ok(false),
         Err(other) => Err(other),
     }
-}
-
-/// Where particles are.
-pub(super) fn position_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let axes = ["x", "y", "z"].into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.position[k][a]))).collect()
-}
-
-/// Where particles were before any motion.
-pub(super) fn reference_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let axes = ["reference_x", "reference_y", "reference_z"];
-    let axes = axes.into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.reference[k][a]))).collect()
-}
-
-/// The particles of a body before anything moves, as another code needs them: places, masses, volumes.
-pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let (mass, volume) = match D {
-        1 => ("kg/m²", "m"),
-        2 => ("kg/m", "m²"),
-        _ => ("kg", "m³"),
-    };
-    let mut columns = reference_columns(particles);
-    columns.extend(position_columns(particles));
-    let seeded = |of: &[f64]| particles.seeded(|k| of[k]);
-    columns.push(column("mass", mass, seeded(&particles.mass)));
-    let volumes = seeded(&particles.reference_volume);
-    columns.push(column("reference_volume", volume, volumes));
-    columns
 }
 
 /// Places (m) of the particles in seeding order.
@@ -223,8 +187,9 @@ pub(super) fn checkerboard(field: &[f64], averaged: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameter::Parameters;
     use crate::scheme::{BasisName, RemedyName};
-    use crate::spec::Level;
+    use crate::spec::{Level, RunSpec};
 
     #[test]
     fn what_is_its_own_average_does_not_oscillate_and_a_checkerboard_does() {

@@ -1,12 +1,67 @@
 //! Scenes and observations that cases of solid and water share.
 
 use crate::prelude::*;
+use mpm_core::Law;
 use mpm_core::poro::PressureSpace;
 
 /// Weight of water (N/m³).
 pub(super) const WATER_WEIGHT: f64 = 9810.0;
 /// Smaller values are rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
+
+/// Height (m) of a column, particles a cell, and empty cells above.
+pub(super) const HEIGHT: f64 = 1.0;
+pub(super) const PER_CELL: usize = 2;
+const ROOM: usize = 2;
+
+/// A column on a sealed floor.
+///
+/// # Errors
+/// Cells that make no grid.
+pub(super) fn column<P, L: Law>(setup: &Setup<P>, law: L) -> Result<Scene<1, L>, mpm_core::Error> {
+    let (h, cells) = (setup.h, (HEIGHT / setup.h).round() as usize);
+    let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
+    let spacing = h / PER_CELL as f64;
+    let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
+    // Nothing moves by its weight: any density will do.
+    let particles = Particles::new(setup.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
+    let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
+    Ok(Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(floor))
+}
+
+/// Whether a particle of a column on cells of size `h` (m) is its topmost.
+pub(super) fn topmost(h: f64) -> impl Fn(&[f64; 1]) -> bool + Copy {
+    move |x| x[0] > HEIGHT - h / PER_CELL as f64
+}
+
+/// How far (m) a column has settled.
+pub(super) fn settled(run: &dyn Simulation<1>) -> f64 {
+    let p = run.particles();
+    let volume = |of: &[f64]| of.iter().sum::<f64>();
+    volume(&p.reference_volume) - volume(&p.volume)
+}
+
+/// What is kept of a column's particles.
+pub(super) fn kept(columns: Columns<'_, 1>) -> Columns<'_, 1> {
+    columns
+        .references()
+        .field("pore_pressure", "Pa", Field::PorePressure)
+        .field("porosity", "-", Field::Porosity)
+        .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
+        .jacobian()
+}
+
+/// A column under its load.
+pub(super) fn column_sketch(description: &'static str) -> Sketch {
+    let mut shapes = vec![
+        Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
+        Shape::Held([0.0, 0.0], [0.3, 0.0]),
+        Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
+        Shape::note([0.15, 1.2], "q, drained"),
+    ];
+    shapes.extend([0.0, 1.0, 2.0].map(|k| Shape::Load([0.05 + 0.1 * k, 1.13], [0.05 + 0.1 * k, 1.02])));
+    Sketch { shapes, description }
+}
 
 /// The three pressure spaces with the functions `basis`.
 pub(super) fn spaces(basis: BasisName) -> [Scheme; 3] {

@@ -3,11 +3,13 @@
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
 use super::family::{BASES, REMEDIES, implicit, pairs};
+use super::manufactured::foreign::{TIME, gaps_of_wave, of_wave};
 use super::manufactured::*;
 use super::parameters::{ALPHA, DELTA, DYNAMIC, LUMPED};
 use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
 use crate::exact::{self, Exact};
+use crate::foreign::Foreign;
 use crate::parameter::{Parameter, Parameters};
 use crate::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -132,6 +134,19 @@ pub(super) fn case() -> Case {
             "vibrating-bar",
             "Vibrating bar",
             "A bar between rigid ends vibrates in its first mode over a hundred periods without any load: the frequency tells the stiffness that a basis and an average leave, the amplitude what a transfer takes.",
+        ])
+    }
+}
+
+pub(super) fn foreign() -> Foreign {
+    Foreign {
+        abscissa: Some(TIME),
+        gaps: gaps_of_wave::<Bar>,
+        ..Foreign::of::<1, Motion<1, Bar>>(of_wave::<Bar>(), &[
+            "One dimension, uniaxial strain, 0 ≤ X ≤ `length`, both ends held. No load, no gravity, no damping.",
+            "Neo-Hookean, W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J, with `young_modulus`, `poisson_ratio` and `density`.",
+            "At t = 0 undeformed, with the velocity A ω sin kX: A is `amplitude`, k = `mode` π/`length`, ω = k c, c² = (λ + 2μ)/ρ.",
+            "The series ends at `duration`, a hundred periods, with ten rows a period or more; say the time step, on which the bound of the energy depends.",
         ])
     }
 }

@@ -35,8 +35,9 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let columns = start.into_iter();
     let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns.collect()).write(&folder.join(START))?;
-    write_json(&folder.join("parameters.json"), &described(case, foreign, spec, &parameters))?;
-    let demands = demands(case, foreign, spec, &parameters);
+    let discretisation = (foreign.discretisation)(spec, &parameters)?;
+    write_json(&folder.join("parameters.json"), &described(case, foreign, (spec, &parameters), discretisation.dim))?;
+    let demands = demands(case, foreign, Record::blank(case.name, spec, &parameters, discretisation, 0));
     let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
     let rows = demands.iter().map(|(v, group)| {
@@ -61,7 +62,12 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
 }
 
 /// The problem, as data.
-fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parameters) -> Value {
+fn described(
+    case: &Case,
+    foreign: &Foreign,
+    (spec, parameters): (&RunSpec, &Parameters),
+    dimension: usize,
+) -> Value {
     let values = serde_json::to_value(parameters).unwrap_or_default();
     let told = case
         .parameters
@@ -72,7 +78,7 @@ fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parame
         "title": case.title,
         "level": spec.level.name,
         "cell_size_m": spec.level.h,
-        "dimension": (foreign.discretisation)(spec, parameters, f64::NAN).dim,
+        "dimension": dimension,
         "setup": foreign.setup,
         "parameters": told.collect::<Value>(),
     })
@@ -117,21 +123,15 @@ impl<'a> Form<'a> {
     }
 }
 
-/// Demands of the case's checks on another code: those on a record whose metrics are all zero, of which only the demand
-/// is used.
-fn demands<'a>(
-    case: &Case,
-    foreign: &'a Foreign,
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Vec<(Verdict, &'a Group)> {
+/// Demands of the case's checks on another code: those on a record of any number of steps whose metrics are all zero, of
+/// which only the demand is used.
+fn demands<'a>(case: &Case, foreign: &'a Foreign, mut record: Record) -> Vec<(Verdict, &'a Group)> {
+    record.work.steps = u64::MAX;
     let metrics = foreign.groups.iter().flat_map(|g| &g.metrics);
     let zero = |unit: &str| Measured { value: Some(0.0), unit: unit.to_owned() };
-    let discretisation = (foreign.discretisation)(spec, parameters, f64::NAN);
-    let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
     record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
     let verdicts = case.judge(&record).into_iter();
-    let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some());
+    let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some() && foreign.asks(&v.check));
     let of_group = |v: Verdict| {
         let mut groups = foreign.groups.iter();
         let group = groups.find(|g| g.metrics.iter().any(|m| m.name == v.metric))?;

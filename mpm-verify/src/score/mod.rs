@@ -16,7 +16,7 @@ use crate::files::require_inside;
 use crate::foreign::{Asked, Foreign, Gap, Given, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::{Measured, Record};
+use crate::record::{Discretisation, Measured, Record};
 use crate::spec::RunSpec;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
@@ -55,8 +55,9 @@ impl Scored {
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
         let (tables, lines) = tables(folder, &manifest, foreign)?;
-        let given =
-            Given { discretisation: (foreign.discretisation)(&spec, &parameters, dt), spec, parameters, tables };
+        let own = (foreign.discretisation)(&spec, &parameters).map_err(refuse("parameters"))?;
+        let (discretisation, steps) = (Discretisation { dt, ..own }, manifest.cost.steps);
+        let given = Given { discretisation, spec, parameters, steps, tables };
         let asked = foreign.columns();
         let unknown = given.require_heads(&asked)?;
         if let Some(abscissa) = &foreign.abscissa {
@@ -133,12 +134,12 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
     Ok((tables, lines))
 }
 
-/// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and
-/// what is measured from a column that is missing, or left open by the rows of the series, is not judged. A wanted quantity
-/// that no column gives is not asked for.
+/// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, their
+/// discrete equations bind nobody, and what is measured from a column that is missing, or left open by the rows of the
+/// series, is not judged. A wanted quantity that no column gives is not asked for.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
     let unjudged = |v: Verdict, why: String| Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v };
-    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
+    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping) && foreign.asks(&v.check);
     let verdicts: Vec<Verdict> = case.verdicts(record).into_iter().filter(of_code).collect();
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
     let is_given = |w: &&Wanted| {

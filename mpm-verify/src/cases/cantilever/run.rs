@@ -67,7 +67,7 @@ impl Setup<Cantilever> {
     ///
     /// # Errors
     /// Parameters that make no scene.
-    pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
         match self.law {
             LawName::Hencky => self.with(Hencky::new(young, ratio)?),

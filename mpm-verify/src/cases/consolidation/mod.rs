@@ -7,11 +7,10 @@ pub(super) mod foreign;
 mod run;
 
 use super::family::levels;
-use super::poro::{ROUNDING, spaces};
+use super::poro::{HEIGHT, ROUNDING, column_sketch, spaces};
 use crate::exact::consolidation::{At, solution};
 use crate::parameter::Parameter;
 use crate::prelude::*;
-use run::HEIGHT;
 
 const LEVELS: [(&str, f64); 6] =
     [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0), ("n128", 128.0), ("n256", 256.0)];
@@ -107,7 +106,7 @@ pub(super) fn case() -> Case {
             error(SETTLEMENT_ERROR, "relative error of the settlement"),
         ],
         watched: &["base_pressure", "settlement"],
-        sketch: sketch(),
+        sketch: column_sketch("A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle."),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-1)),
         pictures,
         tables: tables(),
@@ -147,23 +146,6 @@ fn plan(levels: &[Level]) -> Vec<Family> {
         .each(Nightly, COARSE, two_grid, GHOSTS)
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
         .done()
-}
-
-fn sketch() -> Sketch {
-    let mut shapes = vec![
-        Shape::Body(vec![[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]]),
-        Shape::Held([0.0, 0.0], [0.3, 0.0]),
-        Shape::length([-0.1, 0.0], [-0.1, 1.0], "1 m"),
-        Shape::note([0.15, 1.2], "q, drained"),
-    ];
-    shapes.extend((0..3).map(|k| {
-        let x = 0.05 + 0.1 * f64::from(k);
-        Shape::Load([x, 1.13], [x, 1.02])
-    }));
-    Sketch {
-        shapes,
-        description: "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
-    }
 }
 
 fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {

@@ -2,17 +2,11 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{base_pressure, mass_error, matrix_entries, over_outflow};
+use crate::cases::poro::{PER_CELL, base_pressure, column, kept, mass_error, matrix_entries, over_outflow, settled, topmost};
 use crate::exact::consolidation::between;
 use mpm_core::material::ImprovedHencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};
 
-/// Height of the column (m).
-pub(super) const HEIGHT: f64 = 1.0;
-/// Particles a cell.
-pub(super) const PER_CELL: usize = 2;
-/// Empty cells above it.
-const ROOM: usize = 2;
 /// Bulk parameter K, shear modulus G (Pa) and porosity of the undeformed column.
 const BULK: f64 = 50e3;
 const SHEAR: f64 = 300e3;
@@ -107,13 +101,6 @@ pub(super) struct Seen {
     volume_step: f64,
 }
 
-/// Settlement over H.
-fn settlement(run: &dyn Simulation<1>) -> f64 {
-    let p = run.particles();
-    let volume = |of: &[f64]| of.iter().sum::<f64>();
-    (volume(&p.reference_volume) - volume(&p.volume)) / HEIGHT
-}
-
 impl Problem<1> for Setup<Consolidation> {
     type Parameters = Consolidation;
     type Seen = Seen;
@@ -127,17 +114,8 @@ impl Problem<1> for Setup<Consolidation> {
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        let h = self.h;
-        let cells = (HEIGHT / h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let spacing = h / PER_CELL as f64;
-        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
-        // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
-        let law = ImprovedHencky::new(BULK, SHEAR, POROSITY)?;
-        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(floor);
-        let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
+        let (h, topmost) = (self.h, topmost(self.h));
+        let scene = column(self, ImprovedHencky::new(BULK, SHEAR, POROSITY)?)?;
         let load = self.whole_load();
         let traction = move |t: f64| [-load * (t / (RAMP * TIME_SCALE)).min(1.0)];
         let (particles, top) = (&scene.body.particles, (0, End::Hi));
@@ -177,7 +155,7 @@ impl Problem<1> for Setup<Consolidation> {
         }
         let at = At {
             t: run.time() / TIME_SCALE,
-            settlement: settlement(run),
+            settlement: settled(run) / HEIGHT,
             base: base_pressure(run) / self.whole_load(),
         };
         seen.rows.push(at);
@@ -198,12 +176,7 @@ impl Problem<1> for Setup<Consolidation> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
-            .jacobian()
+        kept(columns)
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

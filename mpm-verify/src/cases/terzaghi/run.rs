@@ -3,18 +3,13 @@
 use super::*;
 use crate::cases::growth;
 use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{ROUNDING, WATER_WEIGHT, base_pressure, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{PER_CELL, ROUNDING, WATER_WEIGHT, base_pressure, column, kept, mass_error, matrix_entries};
+use crate::cases::poro::{outflow, settled, topmost};
 use crate::exact::terzaghi::FirstStep;
 use crate::statistics::rms;
 use mpm_core::material::Hencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Water};
 
-/// Height of the column (m).
-pub(super) const HEIGHT: f64 = 1.0;
-/// Particles a cell.
-const PER_CELL: usize = 2;
-/// Empty cells above it.
-const ROOM: usize = 2;
 /// Largest q/M: the finite part of the strain changes a distance by ten times as much.
 const SMALL: f64 = 1e-6;
 /// Largest change of an overshoot or a settlement by finite strain and Newton's tolerance.
@@ -46,10 +41,15 @@ impl Setup<Terzaghi> {
         self.load / self.modulus()
     }
 
+    /// The pressure space; no other kind of scheme has a solver.
+    pub(super) fn own_space(&self) -> SpaceName {
+        self.space().unwrap_or(Equal)
+    }
+
     /// τ M of the projection; zero without one.
-    fn strength(&self) -> f64 {
-        match self.space() {
-            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
+    fn strength(&self, space: SpaceName) -> f64 {
+        match space {
+            Ppp => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
             _ => 0.0,
         }
     }
@@ -80,41 +80,63 @@ impl Setup<Terzaghi> {
         self.first_and_growth().0 * (HEIGHT / self.h).powi(2)
     }
 
-    /// Cells of the pressure.
-    pub(super) fn cells(&self) -> u32 {
+    /// Cells of a pressure space.
+    fn cells(&self, space: SpaceName) -> u32 {
         let cells = (HEIGHT / self.h).round() as u32;
-        if self.space() == Some(TwoGrid) { cells / 2 } else { cells }
+        if space == TwoGrid { cells / 2 } else { cells }
     }
 
     /// The discrete equations of a step with c_v Δt/h² = `share`.
-    pub(super) fn equations(&self, share: f64) -> FirstStep {
-        match self.space() {
-            Some(TwoGrid) => FirstStep::two_grid(share),
-            _ => FirstStep::same_cells(share, self.strength()),
+    fn equations(&self, space: SpaceName, share: f64) -> FirstStep {
+        match space {
+            TwoGrid => FirstStep::two_grid(share),
+            _ => FirstStep::same_cells(share, self.strength(space)),
         }
     }
 
-    /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
-    pub(super) fn settlement_distance(&self) -> f64 {
-        let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
-        let settled = exact::settlement_of_equations(|r| self.equations(r), self.cells() as usize, &shares);
-        (settled - exact::settlement(self.end())).abs()
+    /// Overshoot of a first step with c_v Δt/h² = `share` by the discrete equations.
+    pub(super) fn overshoot_by(&self, space: SpaceName, share: f64) -> f64 {
+        self.equations(space, share).overshoot(self.cells(space))
     }
 
-    /// Largest nodal pressure over the load, minus one; zero where that is rounding.
+    /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
+    pub(super) fn settlement_distance(&self, space: SpaceName) -> f64 {
+        let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
+        let of = |r| self.equations(space, r);
+        settlement_error(exact::settlement_of_equations(of, self.cells(space) as usize, &shares), self.end())
+    }
+
+    /// What finite strain and the last bits of J̃ in every step change of a settlement.
+    pub(super) fn resolution(&self) -> f64 {
+        FINITE + 4.0 * f64::EPSILON * f64::from(self.steps) / self.strain()
+    }
+
+    /// The largest of a number of the three pressure spaces.
+    pub(super) fn largest(&self, of: impl Fn(SpaceName) -> f64) -> f64 {
+        [TwoGrid, Equal, Ppp].map(of).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Largest nodal pressure over the load, minus one.
     fn overshoot(&self, run: &dyn Simulation<1>) -> f64 {
         let nodes = run.pressure_nodes();
         let most = nodes.iter().fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let over = most / self.load - 1.0;
-        if over > ROUNDING { over } else { 0.0 }
+        beyond_rounding(most / self.load - 1.0)
     }
 
     /// Settlement over the final one.
     fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
-        let p = run.particles();
-        let volume = |of: &[f64]| of.iter().sum::<f64>();
-        (volume(&p.reference_volume) - volume(&p.volume)) * self.modulus() / (self.load * HEIGHT)
+        settled(run) * self.modulus() / (self.load * HEIGHT)
     }
+}
+
+/// An overshoot; zero where it is rounding.
+pub(super) fn beyond_rounding(overshoot: f64) -> f64 {
+    if overshoot > ROUNDING { overshoot } else { 0.0 }
+}
+
+/// Distance from Terzaghi's degree of consolidation at the time factor `t`.
+pub(super) fn settlement_error(settlement: f64, t: f64) -> f64 {
+    (settlement - exact::settlement(t)).abs()
 }
 
 /// Observations of the column: the overshoot of the first step.
@@ -146,25 +168,16 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        let cells = (HEIGHT / self.h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let spacing = self.h / PER_CELL as f64;
-        let places = (0..cells * PER_CELL).map(|k| [(k as f64 + 0.5) * spacing]);
-        // Nothing moves by its weight: any density will do.
-        let particles = Particles::new(self.start_at(places), spacing, 1000.0, [0.5 * spacing])?;
-        let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
-        let floor = Wall { axis: 0, end: End::Lo, kind: WallKind::Roller };
-        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(floor);
+        let scene = column(self, Hencky::new(self.young_modulus, self.poisson_ratio)?)?;
         let (load, h) = (self.load, self.h);
-        let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
-        let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| [-load]);
+        let top = Face::loaded(&scene.body.particles, topmost(h), (0, End::Hi), move |_| [-load]);
         let water = Water::new(self.porosity, Conductivity::Constant(self.kappa()))
             .drained(move |x| x[0] > HEIGHT - 0.25 * h)
             .face(top);
         let (first, growth) = self.first_and_growth();
         let settings = Settings {
             growth,
-            pressure_space: self.pressure_space(self.strength() / self.modulus()),
+            pressure_space: self.pressure_space(self.strength(self.own_space()) / self.modulus()),
             tolerance: self.tolerance,
             ..Settings::new(first * self.time_scale())
         };
@@ -197,12 +210,7 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
-            .jacobian()
+        kept(columns)
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
@@ -217,7 +225,7 @@ impl Problem<1> for Setup<Terzaghi> {
             (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
             (PRESSURE_L2_STEPS, error(&|z| exact::pressure_of_steps(z, &steps))),
             (OVERSHOOT_FIRST_STEP, seen.overshoot_first_step),
-            (SETTLEMENT_ERROR, (self.settlement(run) - exact::settlement(t)).abs()),
+            (SETTLEMENT_ERROR, settlement_error(self.settlement(run), t)),
             (MASS_ERROR, mass_error(run)),
             (NEWTON_ITERATIONS, run.work().newton_iterations as f64),
             (ENTRIES, matrix_entries(run)),
