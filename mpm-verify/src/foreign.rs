@@ -236,9 +236,10 @@ pub(crate) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Col
     const AXES: [[&str; 3]; 2] = [["reference_x", "reference_y", "reference_z"], ["x", "y", "z"]];
     const UNITS: [[&str; 2]; 3] = [["kg/m²", "m"], ["kg/m", "m²"], ["kg", "m³"]];
     let column = |name, unit, of: &dyn Fn(usize) -> f64| Column { name, unit, values: particles.seeded(of) };
-    let of_places = AXES.iter().zip([&particles.reference, &particles.position]).flat_map(|(names, places)| {
-        (0..D).map(move |a| column(names[a], "m", &|k| places[k][a]))
-    });
+    let of_places = AXES
+        .iter()
+        .zip([&particles.reference, &particles.position])
+        .flat_map(|(names, places)| (0..D).map(move |a| column(names[a], "m", &|k| places[k][a])));
     let mut columns: Vec<Column> = of_places.collect();
     let [mass, volume] = UNITS[D - 1];
     columns.push(column("mass", mass, &|k| particles.mass[k]));

@@ -2,7 +2,6 @@
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
 use crate::error::Error;
-use crate::job::Column;
 use crate::parameter::{Parameter, ParameterSet};
 use crate::record::Discretisation;
 use crate::scheme::{RuleName, Scheme};
@@ -130,11 +129,6 @@ pub(super) fn farthest(before: &[[f64; 2]], now: &[[f64; 2]]) -> f64 {
     let pairs = before.iter().zip(now);
     let distance = pairs.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
     distance.fold(0.0, f64::max)
-}
-
-/// A named particle column; values in seeding order.
-pub(super) fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
-    Column { name, unit, values }
 }
 
 /// Mean normal stress (Pa) as it enters the forces and its average Π, in seeding order.

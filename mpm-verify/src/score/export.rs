@@ -62,12 +62,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
 }
 
 /// The problem, as data.
-fn described(
-    case: &Case,
-    foreign: &Foreign,
-    (spec, parameters): (&RunSpec, &Parameters),
-    dimension: usize,
-) -> Value {
+fn described(case: &Case, foreign: &Foreign, (spec, parameters): (&RunSpec, &Parameters), dimension: usize) -> Value {
     let values = serde_json::to_value(parameters).unwrap_or_default();
     let told = case
         .parameters

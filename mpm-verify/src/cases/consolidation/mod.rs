@@ -106,7 +106,9 @@ pub(super) fn case() -> Case {
             error(SETTLEMENT_ERROR, "relative error of the settlement"),
         ],
         watched: &["base_pressure", "settlement"],
-        sketch: column_sketch("A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle."),
+        sketch: column_sketch(
+            "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
+        ),
         cost: Box::new(|spec| 1e-3 * spec.level.h.powi(-1)),
         pictures,
         tables: tables(),

@@ -2,7 +2,9 @@
 
 use super::*;
 use crate::cases::growth;
-use crate::cases::poro::{PER_CELL, base_pressure, column, kept, mass_error, matrix_entries, over_outflow, settled, topmost};
+use crate::cases::poro::{
+    PER_CELL, base_pressure, column, kept, mass_error, matrix_entries, over_outflow, settled, topmost,
+};
 use crate::exact::consolidation::between;
 use mpm_core::material::ImprovedHencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};

@@ -50,13 +50,16 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
             vec![("reference-front.csv", columns)]
         },
-        ..Foreign::of::<2, Dam>(groups, &[
-            "Plane strain. Water fills 0 ≤ x ≤ 4 m, 0 ≤ y ≤ 2 m of a tank from x = 0 to 6 m, open above; g = 9.81 m/s².",
-            "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure.",
-            "At t = 0 the gate at x = 4 m is gone and the water at rest, compressed by its own weight: y and `jacobian` of start.csv say how.",
-            "Water slides freely along floor and walls; if `wall_contact` is separable, it comes off them as freely.",
-            "The series ends at `duration` or later.",
-        ])
+        ..Foreign::of::<2, Dam>(
+            groups,
+            &[
+                "Plane strain. Water fills 0 ≤ x ≤ 4 m, 0 ≤ y ≤ 2 m of a tank from x = 0 to 6 m, open above; g = 9.81 m/s².",
+                "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure.",
+                "At t = 0 the gate at x = 4 m is gone and the water at rest, compressed by its own weight: y and `jacobian` of start.csv say how.",
+                "Water slides freely along floor and walls; if `wall_contact` is separable, it comes off them as freely.",
+                "The series ends at `duration` or later.",
+            ],
+        )
     }
 }
 

@@ -7,9 +7,16 @@ use crate::foreign::{Asked, Gap, Gaps, Given, Group, MEAN_STRESS, Measured, Part
 pub(in crate::cases) const TIME: Asked = Asked::series("time", "s", "time");
 const KINETIC: Asked = Asked::series("kinetic_energy", "J", "kinetic energy");
 const ENERGY: Asked = Asked::series("energy", "J", "kinetic and stored energy less the work of the loads");
-const SHAPE: Asked = Asked::series("mode", "-", "Σ u sin kX / Σ A sin² kX over the particles: the share of the wave in the displacement");
-const AVERAGED: Asked =
-    Asked::particle("averaged_jacobian", "-", "volume ratio J that the pressure is computed from at the end, averaged or not");
+const SHAPE: Asked = Asked::series(
+    "mode",
+    "-",
+    "Σ u sin kX / Σ A sin² kX over the particles: the share of the wave in the displacement",
+);
+const AVERAGED: Asked = Asked::particle(
+    "averaged_jacobian",
+    "-",
+    "volume ratio J that the pressure is computed from at the end, averaged or not",
+);
 
 /// A row every this share of a period shows zeros to 4·10⁻³ of a radian: straight lines miss one of sin φ by 0.016 Δφ³.
 const ROWS_PER_PERIOD: f64 = 10.0;

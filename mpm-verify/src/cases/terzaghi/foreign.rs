@@ -27,12 +27,15 @@ pub(in crate::cases) fn foreign() -> Foreign {
         abscissa: Some(TIME),
         gaps,
         own_checks: &["settlement", "overshoot"],
-        ..Foreign::of::<1, Setup<Terzaghi>>(groups, &[
-            "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained. No gravity, no inertia, small strain.",
-            "Linear elasticity with `young_modulus` and `poisson_ratio` in uniaxial strain, M = E (1 − ν)/((1 + ν)(1 − 2ν)); grains and water keep their volume; Darcy's law with `conductivity` k, water of γ_w = 9810 N/m³.",
-            "The whole load q = `load` acts from T = 0 on. `steps` equal steps to T = `time_end`; with a `first_step` the first is that times h²/H² and each longer than the one before by a factor, of one step to its end.",
-            "The first row is the end of the first step.",
-        ])
+        ..Foreign::of::<1, Setup<Terzaghi>>(
+            groups,
+            &[
+                "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained. No gravity, no inertia, small strain.",
+                "Linear elasticity with `young_modulus` and `poisson_ratio` in uniaxial strain, M = E (1 − ν)/((1 + ν)(1 − 2ν)); grains and water keep their volume; Darcy's law with `conductivity` k, water of γ_w = 9810 N/m³.",
+                "The whole load q = `load` acts from T = 0 on. `steps` equal steps to T = `time_end`; with a `first_step` the first is that times h²/H² and each longer than the one before by a factor, of one step to its end.",
+                "The first row is the end of the first step.",
+            ],
+        )
     }
 }
 
