@@ -181,8 +181,6 @@ pub struct Foreign {
     pub gaps: fn(&Given) -> Gaps,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
-    /// The problem in words: body, supports, loads, end.
-    pub setup: &'static [&'static str],
     /// Curves of the reference.
     pub curves: fn(&Parameters) -> Vec<Curve>,
     /// Checks by the discrete equations of our schemes, which are no demand on another code.
@@ -190,9 +188,9 @@ pub struct Foreign {
 }
 
 impl Foreign {
-    /// Of the problem `P` in `D` dimensions: these groups, and the problem in words. A code is judged as quadratic splines
-    /// with `fbar-consistent`, and its rows leave nothing open.
-    pub(crate) fn of<const D: usize, P: Problem<D>>(groups: Vec<Group>, setup: &'static [&'static str]) -> Self
+    /// Of the problem `P` in `D` dimensions, with these groups. A code is judged as quadratic splines with `fbar-consistent`,
+    /// and its rows leave nothing open.
+    pub(crate) fn of<const D: usize, P: Problem<D>>(groups: Vec<Group>) -> Self
     where
         P::Parameters: ParameterSet,
     {
@@ -206,7 +204,6 @@ impl Foreign {
                 let problem = P::new(Setup::of_spec(spec, parameters)?)?;
                 Ok(start_columns(problem.begin(&problem.unseen())?.particles()))
             },
-            setup,
             curves: |_| Vec::new(),
             own_checks: &[],
         }

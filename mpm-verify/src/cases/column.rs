@@ -95,15 +95,7 @@ pub(super) fn foreign() -> Foreign {
     Foreign {
         abscissa: Some(TIME),
         gaps: gaps_of_rest,
-        ..Foreign::of::<2, Motion<2, WaterColumn>>(
-            of_rest::<WaterColumn>(),
-            &[
-                "Plane strain. Water fills 0 ≤ x ≤ `width`, 0 ≤ y ≤ `height` before anything moves; it slides freely along the floor y = 0 and both sides, its surface is free.",
-                "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure; weight `gravity`.",
-                "At t = 0 it is at rest, compressed by its own weight: y and `jacobian` of start.csv say how. No damping; the end is `duration`.",
-                "A drift is judged from 10⁵ steps on, by the means of cells: say `cost.steps`, and begin with the particles of start.csv.",
-            ],
-        )
+        ..Foreign::of::<2, Motion<2, WaterColumn>>(of_rest::<WaterColumn>())
     }
 }
 

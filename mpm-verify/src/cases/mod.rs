@@ -20,7 +20,6 @@ mod excavation;
 mod family;
 mod footing;
 mod forms;
-mod growth;
 mod landslide;
 mod mandel;
 mod manufactured;

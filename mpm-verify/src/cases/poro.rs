@@ -41,14 +41,19 @@ pub(super) fn settled(run: &dyn Simulation<1>) -> f64 {
     volume(&p.reference_volume) - volume(&p.volume)
 }
 
-/// What is kept of a column's particles.
-pub(super) fn kept(columns: Columns<'_, 1>) -> Columns<'_, 1> {
-    columns
-        .references()
-        .field("pore_pressure", "Pa", Field::PorePressure)
-        .field("porosity", "-", Field::Porosity)
-        .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
-        .jacobian()
+/// What is kept of particles: where they start, and what they hold of the water and along the first axis.
+pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
+    columns.references().field("pore_pressure", "Pa", Field::PorePressure).field("porosity", "-", Field::Porosity).each(
+        "effective_stress_xx",
+        "Pa",
+        |p, k| p.stress[k].xx,
+    )
+}
+
+/// Shear modulus G and oedometric modulus M (Pa) of a Young's modulus (Pa) and a Poisson's ratio.
+pub(super) fn moduli(young_modulus: f64, poisson_ratio: f64) -> [f64; 2] {
+    let shear = young_modulus / (2.0 * (1.0 + poisson_ratio));
+    [shear, 2.0 * shear * (1.0 - poisson_ratio) / (1.0 - 2.0 * poisson_ratio)]
 }
 
 /// A column under its load.
@@ -106,6 +111,11 @@ pub(super) fn outflow<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 /// |`volume` / outflow|.
 pub(super) fn over_outflow<const D: usize>(run: &dyn Simulation<D>, volume: f64) -> f64 {
     run.water().map_or(f64::NAN, |w| (volume / w.outflow).abs())
+}
+
+/// An overshoot; zero where it is at most [`ROUNDING`].
+pub(super) fn beyond_rounding(overshoot: f64) -> f64 {
+    if overshoot > ROUNDING { overshoot } else { 0.0 }
 }
 
 /// Change of the volume and outflow together, over the outflow, at least [`ROUNDING`].

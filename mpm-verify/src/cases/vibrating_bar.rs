@@ -139,19 +139,7 @@ pub(super) fn case() -> Case {
 }
 
 pub(super) fn foreign() -> Foreign {
-    Foreign {
-        abscissa: Some(TIME),
-        gaps: gaps_of_wave::<Bar>,
-        ..Foreign::of::<1, Motion<1, Bar>>(
-            of_wave::<Bar>(),
-            &[
-                "One dimension, uniaxial strain, 0 ≤ X ≤ `length`, both ends held. No load, no gravity, no damping.",
-                "Neo-Hookean, W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J, with `young_modulus`, `poisson_ratio` and `density`.",
-                "At t = 0 undeformed, with the velocity A ω sin kX: A is `amplitude`, k = `mode` π/`length`, ω = k c, c² = (λ + 2μ)/ρ.",
-                "The series ends at `duration`, a hundred periods, with ten rows a period or more; say the time step, on which the bound of the energy depends.",
-            ],
-        )
-    }
+    Foreign { abscissa: Some(TIME), gaps: gaps_of_wave::<Bar>, ..Foreign::of::<1, Motion<1, Bar>>(of_wave::<Bar>()) }
 }
 
 fn results() -> ResultTable {

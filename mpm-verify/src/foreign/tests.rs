@@ -25,6 +25,7 @@ fn given(heads: [&str; 2]) -> Given {
         parameters: Parameters::new(&case.parameters, &[]).unwrap(),
         discretisation: Discretisation { dim: 2, h: spec.level.h, ppc: 4, dt: 1.0, wall: String::new() },
         spec,
+        steps: None,
         tables: tables.map(table).into(),
     }
 }
@@ -59,7 +60,7 @@ fn columns_and_tables_are_asked_for_once() {
         abscissa: None,
         gaps: own.gaps,
         start: own.start,
-        setup: own.setup,
+        own_checks: own.own_checks,
         curves: own.curves,
     };
     assert_eq!(foreign.columns(), [X, TIME, Y, FORCE]);

@@ -16,6 +16,8 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
 
+/// The problems in words, a section a case.
+const PROBLEMS: &str = include_str!("../../assets/problems.md");
 /// File of the particles before anything moves.
 const START: &str = "start.csv";
 
@@ -36,7 +38,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns.collect()).write(&folder.join(START))?;
     let discretisation = (foreign.discretisation)(spec, &parameters)?;
-    write_json(&folder.join("parameters.json"), &described(case, foreign, (spec, &parameters), discretisation.dim))?;
+    write_json(&folder.join("parameters.json"), &described(case, spec, &parameters, discretisation.dim))?;
     let demands = demands(case, foreign, Record::blank(case.name, spec, &parameters, discretisation, 0));
     let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
@@ -61,8 +63,14 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     Ok(files.into_iter().map(str::to_owned).collect())
 }
 
+/// A problem in words: body, supports, loads, end.
+fn words(case: &str) -> Vec<&'static str> {
+    let section = PROBLEMS.split("\n# ").find_map(|s| s.strip_prefix(case)?.strip_prefix('\n'));
+    section.unwrap_or_default().lines().filter_map(|line| line.strip_prefix("- ")).collect()
+}
+
 /// The problem, as data.
-fn described(case: &Case, foreign: &Foreign, (spec, parameters): (&RunSpec, &Parameters), dimension: usize) -> Value {
+fn described(case: &Case, spec: &RunSpec, parameters: &Parameters, dimension: usize) -> Value {
     let values = serde_json::to_value(parameters).unwrap_or_default();
     let told = case
         .parameters
@@ -74,7 +82,7 @@ fn described(case: &Case, foreign: &Foreign, (spec, parameters): (&RunSpec, &Par
         "level": spec.level.name,
         "cell_size_m": spec.level.h,
         "dimension": dimension,
-        "setup": foreign.setup,
+        "setup": words(case.name),
         "parameters": told.collect::<Value>(),
     })
 }
@@ -142,7 +150,8 @@ fn readme(
     files: &[&str],
 ) -> String {
     let mut t = format!("# {}, level {}\n\n", case.title, spec.level.name);
-    for line in foreign.setup {
+    let setup = words(case.name);
+    for line in &setup {
         let _ = writeln!(t, "- {line}");
     }
     let _ = write!(
@@ -151,7 +160,7 @@ fn readme(
          Values of the parameters named above:\n\n",
         spec.level.h
     );
-    let named = |p: &&Parameter| foreign.setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));
+    let named = |p: &&Parameter| setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));
     let rows = case.parameters.iter().filter(named);
     let rows = rows.map(|p| vec![format!("`{}`", p.name), parameters.text(*p), p.unit.to_owned()]);
     t += &Sheet::new(["parameter", "value", "unit"]).with(rows).markdown();

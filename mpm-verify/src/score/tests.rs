@@ -2,6 +2,7 @@
 
 mod coverage;
 mod gate;
+mod schema;
 
 use super::*;
 use crate::cases::find_scored;

@@ -38,16 +38,5 @@ pub(in crate::cases) fn foreign() -> Foreign {
             Ok(edge.of_stress(&stress, &setup))
         }),
     ];
-    Foreign {
-        judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None),
-        ..Foreign::of::<2, Bending>(
-            groups,
-            &[
-                "Plane strain, 0 ≤ x ≤ 1 m, 0 ≤ y ≤ 0.3 m; the side x = 0 is clamped, all others are free.",
-                "The elastic law that `law` names, with `young_modulus` and `poisson_ratio`; hencky: W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b; neo-hookean: W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J.",
-                "In equilibrium under a dead weight of `weight` (N/m³) of the initial volume, downward; in as many steps as you like.",
-                "The particles of start.csv, all of them, in any order: the free end is extrapolated from their last two columns.",
-            ],
-        )
-    }
+    Foreign { judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None), ..Foreign::of::<2, Bending>(groups) }
 }

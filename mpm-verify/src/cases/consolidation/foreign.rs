@@ -38,15 +38,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             ];
             vec![("reference-curve.csv", columns)]
         },
-        ..Foreign::of::<1, Setup<Consolidation>>(
-            groups,
-            &[
-                "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained and loaded. No gravity, no inertia.",
-                "Solid: improved Hencky law, W = G ‖dev h‖² + K v²/(2n), h = ½ ln b, v = ln J, n = 1 − (1 − n₀)/J, with K = 50 kPa, G = 300 kPa, n₀ = 0.5: M₀ = K/n₀ + 4G/3 = 500 kPa.",
-                "Water: Darcy's law by Kozeny–Carman, κ = c n³/(1 − n)², κ₀ = 10⁻⁶/9810 m²/(Pa s) at n₀.",
-                "The load is `load` M₀: from zero at T = 0 in a straight line to its whole at T = 0.05, then constant; the end is T = 2.",
-            ],
-        )
+        ..Foreign::of::<1, Setup<Consolidation>>(groups)
     }
 }
 

@@ -1,11 +1,9 @@
 //! Derived quantities, scene and observations of the column.
 
 use super::*;
-use crate::cases::growth;
-use crate::cases::poro::{
-    PER_CELL, base_pressure, column, kept, mass_error, matrix_entries, over_outflow, settled, topmost,
-};
+use crate::cases::poro::*;
 use crate::exact::consolidation::between;
+use crate::statistics::growth;
 use mpm_core::material::ImprovedHencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, VolumeRate, Water};
 
@@ -39,7 +37,7 @@ impl Setup<Consolidation> {
 
     /// T of the first step, and the ratio of each step to the one before.
     fn first_and_growth(&self) -> (f64, f64) {
-        let whole = growth::factor(FIRST, STEPS, END);
+        let whole = growth(FIRST, STEPS, END);
         let cut = whole.powf(1.0 / f64::from(self.refine));
         (FIRST * (cut - 1.0) / (whole - 1.0), cut)
     }
@@ -178,7 +176,7 @@ impl Problem<1> for Setup<Consolidation> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        kept(columns)
+        kept(columns).jacobian()
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

@@ -49,15 +49,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             columns.push(crate::job::Column { name: "load_y", unit: "N/m", values: load });
             Ok(columns)
         },
-        ..Foreign::of::<2, Membrane>(
-            groups,
-            &[
-                "Plane strain. Corners (0, 0), (48, 44), (48, 60), (0, 44) m; the side x = 0 is clamped.",
-                "Neo-Hookean rubber, W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J, with `young_modulus`, `poisson_ratio` and `density`.",
-                "Dead load `load` (N/m) upward on the right side, to full and constant; `load_y` is every particle's share of it.",
-                "No gravity. Damp as you like: the state of rest is judged.",
-            ],
-        )
+        ..Foreign::of::<2, Membrane>(groups)
     }
 }
 

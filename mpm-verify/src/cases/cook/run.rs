@@ -3,9 +3,9 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress};
+use crate::cases::observe::mean_stress;
 use crate::cases::parameters::require_quotient;
-use crate::statistics::{Line, fit_line, rms};
+use crate::statistics::{Line, checkerboard, fit_line, rms};
 use mpm_core::explicit::courant_time_step;
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::implicit::{Settings, Stabilisation};

@@ -15,11 +15,8 @@ const COVERED: Asked = Asked::series(
     "area under the highest particles, in strips two particles wide, with half a spacing on top",
 );
 
-const START_PRESSURE: Asked = Asked::particle(
-    "start_pressure",
-    "Pa",
-    "pressure behind the gate just before it is gone: from the start of start.csv after one step, else at rest",
-);
+const START_PRESSURE: Asked =
+    Asked::particle("start_pressure", "Pa", "pressure behind the gate just before it is gone: one step from start.csv");
 
 /// Time (s) at which the area is measured.
 const EARLY: f64 = 0.4;
@@ -50,16 +47,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
             vec![("reference-front.csv", columns)]
         },
-        ..Foreign::of::<2, Dam>(
-            groups,
-            &[
-                "Plane strain. Water fills 0 ≤ x ≤ 4 m, 0 ≤ y ≤ 2 m of a tank from x = 0 to 6 m, open above; g = 9.81 m/s².",
-                "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure.",
-                "At t = 0 the gate at x = 4 m is gone and the water at rest, compressed by its own weight: y and `jacobian` of start.csv say how.",
-                "Water slides freely along floor and walls; if `wall_contact` is separable, it comes off them as freely.",
-                "The series ends at `duration` or later.",
-            ],
-        )
+        ..Foreign::of::<2, Dam>(groups)
     }
 }
 

@@ -2,11 +2,10 @@
 
 use super::flow::{Flow, Start, State};
 use super::*;
-use crate::cases::observe::checkerboard;
 use crate::cases::parameters::require_quotient;
 use crate::exact::Exact;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::statistics::{fit_line, rms};
+use crate::statistics::{checkerboard, fit_line, rms};
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NewtonianFluid};

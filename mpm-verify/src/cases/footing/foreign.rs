@@ -44,16 +44,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let columns = [(PENETRATED.header(), settlement), ("pressure_over_strength (-)".to_owned(), pressure)];
             vec![("reference-curve.csv", columns.into())]
         },
-        ..Foreign::of::<2, Pressing>(
-            groups,
-            &[
-                "Plane strain, right half: 0 ≤ x ≤ `domain_width` B, −`domain_depth` B ≤ y ≤ 0, B = 1 m. Base fixed, rollers at both sides.",
-                "Hencky elasticity (W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b) with `young_modulus`, `poisson_ratio`; perfectly plastic at ‖s‖ = √2 `undrained_strength`. No gravity.",
-                "A rigid footing on 0 ≤ x ≤ B/2, y = 0 goes down by `penetration` B; the ground sticks to it if `rough`.",
-                "Slowly: the force on the base is to be that on the footing. Rows of the series 10⁻⁵ apart in penetration, or closer.",
-                "`basis` of score.json says how wide the footing acts: B with `bspline2` and for any code whose footing ends at B/2, B + h with `linear` and `gimp`, whose last held node stands on B/2, B + h/2 with `bspline3`.",
-            ],
-        )
+        ..Foreign::of::<2, Pressing>(groups)
     }
 }
 

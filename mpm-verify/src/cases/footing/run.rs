@@ -3,9 +3,9 @@
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::reference::EXACT;
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress, oscillation};
+use crate::cases::observe::mean_stress;
 use crate::probe::PointProbe;
-use crate::statistics::rms;
+use crate::statistics::{checkerboard, oscillation, rms};
 use mpm_core::Part;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::courant_time_step;

@@ -38,19 +38,7 @@ where
         Group::new(&[TIME, FAILED], [FAILED_SHARE_END, FAILURE_TIME], of_slide::<D>),
         Group::new(&[TIME, KINETIC, POTENTIAL, STORED, DISSIPATED], [UNACCOUNTED_ENERGY, FALLEN_ENERGY], of_slide::<D>),
     ];
-    Foreign {
-        abscissa: Some(TIME),
-        gaps,
-        ..Foreign::of::<D, Slide<D>>(
-            groups,
-            &[
-                "Clay below y = 0 … `height` H from a smooth wall at x = 0 to the crest at x = `crest`, from there down a face at `face_angle` to the toe at y = 0. The base y = 0 is fixed and runs on by `floor` before the toe.",
-                "`landslide-2d`: plane strain. `landslide`: smooth walls at z = 0 and `width`, 5 m where that is 0 and four cells on a level that begins with slice. Forces and energies are per metre of width.",
-                "Hencky elasticity (W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b) with `young_modulus`, `poisson_ratio`; plastic at ‖s‖ = κ_r + (κ_p − κ_r) exp(−η ε), κ_p = `peak_strength`, κ_r = `residual_strength`, η = `softening`, ε the equivalent plastic strain; `density`, g = 9.81 m/s².",
-                "At rest under its weight with the full strength, however that is reached. Then κ_p is divided by `reduction`, at once or in a straight line over `release`, and the slide goes on to `duration` with local damping of `damping`.",
-            ],
-        )
-    }
+    Foreign { abscissa: Some(TIME), gaps, ..Foreign::of::<D, Slide<D>>(groups) }
 }
 
 /// The ground at rest, and the rows of the slide; missing columns are zeros, whose metrics no group takes.
@@ -80,7 +68,7 @@ where
     let (rest, rows) = rows(given, given.setup::<Landslide>()?.duration);
     let rest = rest.unwrap_or_default();
     let mass = slide.begin(&slide.unseen())?.totals().mass;
-    let mut values = Rows { rows }.metrics(slide.section(), &rest);
+    let mut values = Rows { rows }.metrics(&slide.ground.slope.section, &rest);
     values.push(slide.base_reaction(&rest, mass));
     Ok(values)
 }

@@ -2,10 +2,9 @@
 
 use super::look::{Look, Series, State, potential, spread_over_width};
 use super::*;
-use crate::cases::observe::checkerboard;
 use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
-use crate::cases::slope::section::{GRAVITY, Section};
-use crate::statistics::rms;
+use crate::cases::slope::section::GRAVITY;
+use crate::statistics::{checkerboard, rms};
 use mpm_core::Part;
 use mpm_core::material::{HenckyJ2, Strength};
 use mpm_solvers::Solvable;
@@ -112,7 +111,7 @@ impl Setup<Landslide> {
 /// A slide: first under rising gravity with its full strength, then with the reduced one.
 pub(super) struct Slide<const D: usize> {
     setup: Setup<Landslide>,
-    ground: Ground<D>,
+    pub(super) ground: Ground<D>,
     /// Places (m) of the particles in the section.
     reference: Vec<[f64; 2]>,
 }
@@ -230,10 +229,6 @@ impl<const D: usize> Slide<D> {
     /// Force on the base over the weight of the ground, whose mass is `mass` (kg).
     pub(super) fn base_reaction(&self, rest: &State, mass: f64) -> (Metric, f64) {
         (BASE_REACTION_RATIO, rest.base_force / (mass * GRAVITY / self.ground.width))
-    }
-
-    pub(super) fn section(&self) -> &Section {
-        &self.ground.slope.section
     }
 
     fn measure_rest(&self, seen: &mut Seen, run: &mut dyn Simulation<D>) {
@@ -389,7 +384,7 @@ where
         let (rest, totals) = (&seen.at_rest, run.totals());
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let bands = self.look(&positions, &plastic_strain).bands();
-        let mut values = seen.series.metrics(self.section(), &rest.state);
+        let mut values = seen.series.metrics(&self.ground.slope.section, &rest.state);
         let rearmost = bands.into_iter().fold(f64::NAN, f64::max);
         values.extend([
             (REARMOST_BAND_END, rearmost),

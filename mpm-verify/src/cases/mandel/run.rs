@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{WATER_WEIGHT, above_rounding, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{WATER_WEIGHT, above_rounding, mass_error, matrix_entries, moduli, outflow};
 use crate::exact::mandel::{self as exact, Cells, Slab, of_particles};
 use mpm_core::Part;
 use mpm_core::material::Hencky;
@@ -27,14 +27,9 @@ const FINITE: f64 = 10.0;
 const BELOW: Part = Part::Constraint(1);
 
 impl Setup<Mandel> {
-    /// Shear modulus G (Pa).
-    fn shear_modulus(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa).
-    fn modulus(&self) -> f64 {
-        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
+    /// Shear modulus G and oedometric modulus M (Pa).
+    fn moduli(&self) -> [f64; 2] {
+        moduli(self.young_modulus, self.poisson_ratio)
     }
 
     /// κ (m²/(Pa s)).
@@ -44,12 +39,12 @@ impl Setup<Mandel> {
 
     /// a²/c (s).
     fn time_scale(&self) -> f64 {
-        WIDTH * WIDTH / (self.kappa() * self.modulus())
+        WIDTH * WIDTH / (self.kappa() * self.moduli()[1])
     }
 
     /// F/(G a).
     pub(super) fn strain(&self) -> f64 {
-        self.load / (self.shear_modulus() * WIDTH)
+        self.load / (self.moduli()[0] * WIDTH)
     }
 
     /// Finite part of the strain, and its rounding.
@@ -86,7 +81,7 @@ impl Setup<Mandel> {
     /// τ M of the projection; zero without one.
     fn strength(&self) -> f64 {
         match self.space() {
-            Some(Ppp) => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
+            Some(Ppp) => self.projection * self.moduli()[1] / (2.0 * self.moduli()[0]),
             _ => 0.0,
         }
     }
@@ -232,7 +227,7 @@ impl Problem<2> for Consolidation {
             .drained(move |x| x[0] > WIDTH - 0.25 * h)
             .plate(plate);
         let settings = Settings {
-            pressure_space: c.pressure_space(c.strength() / c.modulus()),
+            pressure_space: c.pressure_space(c.strength() / c.moduli()[1]),
             tolerance: c.tolerance,
             ..Settings::new(c.step() * c.time_scale())
         };

@@ -3,7 +3,6 @@
 use super::phase::Phase;
 use super::setup::Setup as Made;
 use super::solving::{Compiled, Solving};
-use crate::cases::observe::checkerboard;
 use crate::error::Error;
 use crate::job::{Row, Snapshot};
 use crate::metric::{Metric, metrics};
@@ -11,6 +10,7 @@ use crate::problem::{self, Columns, Problem};
 use crate::record::Discretisation;
 use crate::scheme::Scheme;
 use crate::setup::Setup;
+use crate::statistics::checkerboard;
 use mpm_core::basis::WallTreatment;
 use mpm_core::{Field, Part, Simulation};
 use serde::{Deserialize, Serialize};

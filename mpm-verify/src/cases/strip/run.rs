@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::parameters::require_quotient;
-use crate::cases::poro::{WATER_WEIGHT, above_rounding, matrix_entries, outflow};
+use crate::cases::poro::{WATER_WEIGHT, above_rounding, kept, matrix_entries, outflow};
 use crate::statistics::rms;
 use mpm_core::material::{CamClay, ImprovedHencky};
 use mpm_core::poro::{Conductivity, Face, Settings, Tangent, Water};
@@ -374,11 +374,7 @@ where
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
+        kept(columns)
             .each("effective_stress_yy", "Pa", |p, k| p.stress[k].yy)
             .each("effective_stress_xy", "Pa", |p, k| p.stress[k].xy)
             .field("plastic_strain", "-", Field::PlasticStrain)

@@ -120,14 +120,14 @@ fn checks() -> Vec<Check> {
             })
             .because("exact rate: the equations of all nodes add up to the balance of the column"),
         Check::truth("overshoot", "excess of the largest nodal pressure of the first step over q that of the closed form of the discrete equations, zero where monotone")
-            .within(OVERSHOOT_FIRST_STEP, |c| c.overshoot_by(c.own_space(), c.share()), |_| FINITE)
+            .within(OVERSHOOT_FIRST_STEP, |c| c.overshoot_by(c.space().unwrap_or(Equal), c.share()), |_| FINITE)
             .of_scale(|_| 1.0)
             .because("closed form, docs/poromechanics.md; q/M ≤ 10⁻⁶ is finite"),
         Check::truth("bounded-overshoot", "excess of the largest nodal pressure of the first step over q at most the largest of the three spaces' closed forms")
             .at_most(OVERSHOOT_FIRST_STEP, |c| c.largest(|space| c.overshoot_by(space, c.share())) + FINITE)
             .because("closed forms, docs/poromechanics.md: q is never exceeded, and what a step of this length adds is that of these cells"),
         Check::truth("settlement", "final distance from Terzaghi's degree of consolidation that of the discrete equations, solved node by node")
-            .within(SETTLEMENT_ERROR, |c| c.settlement_distance(c.own_space()), |c| c.resolution())
+            .within(SETTLEMENT_ERROR, |c| c.settlement_distance(c.space().unwrap_or(Equal)), |c| c.resolution())
             .because("Terzaghi's series, and the equations of docs/poromechanics.md step by step; q/M ≤ 10⁻⁶ is finite, and J̃ rounded"),
         Check::truth("near-terzaghi", "final distance from Terzaghi's degree of consolidation at most the largest that the discrete equations of the three spaces have with these cells and steps")
             .within(SETTLEMENT_ERROR, |_| 0.0, |c| c.largest(|space| c.settlement_distance(space)) + c.resolution())

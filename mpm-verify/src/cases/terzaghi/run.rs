@@ -1,12 +1,10 @@
 //! Derived quantities, scene and observations of the column.
 
 use super::*;
-use crate::cases::growth;
 use crate::cases::parameters::{least_strain, require_quotient};
-use crate::cases::poro::{PER_CELL, ROUNDING, WATER_WEIGHT, base_pressure, column, kept, mass_error, matrix_entries};
-use crate::cases::poro::{outflow, settled, topmost};
+use crate::cases::poro::*;
 use crate::exact::terzaghi::FirstStep;
-use crate::statistics::rms;
+use crate::statistics::{growth, rms};
 use mpm_core::material::Hencky;
 use mpm_core::poro::{Conductivity, Face, Settings, Water};
 
@@ -16,14 +14,9 @@ const SMALL: f64 = 1e-6;
 pub(super) const FINITE: f64 = 10.0 * SMALL;
 
 impl Setup<Terzaghi> {
-    /// Shear modulus G (Pa).
-    fn shear_modulus(&self) -> f64 {
-        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
-    }
-
-    /// Oedometric modulus M (Pa).
-    fn modulus(&self) -> f64 {
-        2.0 * self.shear_modulus() * (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio)
+    /// Shear modulus G and oedometric modulus M (Pa).
+    fn moduli(&self) -> [f64; 2] {
+        moduli(self.young_modulus, self.poisson_ratio)
     }
 
     /// κ (m²/(Pa s)).
@@ -33,23 +26,18 @@ impl Setup<Terzaghi> {
 
     /// H²/c_v (s).
     fn time_scale(&self) -> f64 {
-        HEIGHT * HEIGHT / (self.kappa() * self.modulus())
+        HEIGHT * HEIGHT / (self.kappa() * self.moduli()[1])
     }
 
     /// q/M.
     pub(super) fn strain(&self) -> f64 {
-        self.load / self.modulus()
-    }
-
-    /// The pressure space; no other kind of scheme has a solver.
-    pub(super) fn own_space(&self) -> SpaceName {
-        self.space().unwrap_or(Equal)
+        self.load / self.moduli()[1]
     }
 
     /// τ M of the projection; zero without one.
     fn strength(&self, space: SpaceName) -> f64 {
         match space {
-            Ppp => self.projection * self.modulus() / (2.0 * self.shear_modulus()),
+            Ppp => self.projection * self.moduli()[1] / (2.0 * self.moduli()[0]),
             _ => 0.0,
         }
     }
@@ -60,7 +48,7 @@ impl Setup<Terzaghi> {
         match (first, self.steps) {
             (0.0, count) => (self.time_end / f64::from(count), 1.0),
             (_, 1) => (first, 1.0),
-            (_, count) => (first, growth::factor(first, count, self.time_end)),
+            (_, count) => (first, growth(first, count, self.time_end)),
         }
     }
 
@@ -103,7 +91,7 @@ impl Setup<Terzaghi> {
     pub(super) fn settlement_distance(&self, space: SpaceName) -> f64 {
         let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
         let of = |r| self.equations(space, r);
-        settlement_error(exact::settlement_of_equations(of, self.cells(space) as usize, &shares), self.end())
+        (exact::settlement_of_equations(of, self.cells(space) as usize, &shares) - exact::settlement(self.end())).abs()
     }
 
     /// What finite strain and the last bits of J̃ in every step change of a settlement.
@@ -125,18 +113,8 @@ impl Setup<Terzaghi> {
 
     /// Settlement over the final one.
     fn settlement(&self, run: &dyn Simulation<1>) -> f64 {
-        settled(run) * self.modulus() / (self.load * HEIGHT)
+        settled(run) * self.moduli()[1] / (self.load * HEIGHT)
     }
-}
-
-/// An overshoot; zero where it is rounding.
-pub(super) fn beyond_rounding(overshoot: f64) -> f64 {
-    if overshoot > ROUNDING { overshoot } else { 0.0 }
-}
-
-/// Distance from Terzaghi's degree of consolidation at the time factor `t`.
-pub(super) fn settlement_error(settlement: f64, t: f64) -> f64 {
-    (settlement - exact::settlement(t)).abs()
 }
 
 /// Observations of the column: the overshoot of the first step.
@@ -177,7 +155,7 @@ impl Problem<1> for Setup<Terzaghi> {
         let (first, growth) = self.first_and_growth();
         let settings = Settings {
             growth,
-            pressure_space: self.pressure_space(self.strength(self.own_space()) / self.modulus()),
+            pressure_space: self.pressure_space(self.strength(self.space().unwrap_or(Equal)) / self.moduli()[1]),
             tolerance: self.tolerance,
             ..Settings::new(first * self.time_scale())
         };
@@ -210,7 +188,7 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        kept(columns)
+        kept(columns).jacobian()
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
@@ -225,7 +203,7 @@ impl Problem<1> for Setup<Terzaghi> {
             (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
             (PRESSURE_L2_STEPS, error(&|z| exact::pressure_of_steps(z, &steps))),
             (OVERSHOOT_FIRST_STEP, seen.overshoot_first_step),
-            (SETTLEMENT_ERROR, settlement_error(self.settlement(run), t)),
+            (SETTLEMENT_ERROR, (self.settlement(run) - exact::settlement(t)).abs()),
             (MASS_ERROR, mass_error(run)),
             (NEWTON_ITERATIONS, run.work().newton_iterations as f64),
             (ENTRIES, matrix_entries(run)),
