@@ -67,7 +67,7 @@ fn made() -> &'static Path {
     static MADE: OnceLock<tempfile::TempDir> = OnceLock::new();
     MADE.get_or_init(|| {
         let root = tempfile::tempdir().unwrap();
-        RUNS.map(|run| make(run, &root.path().join(run.0)));
+        let _ = RUNS.map(|run| make(run, &root.path().join(run.0)));
         root
     })
     .path()
@@ -137,8 +137,7 @@ pub(super) fn of<'a>(scored: &'a Scored, check: &str) -> Vec<&'a Verdict> {
 /// The result in a folder, of whose run the record is `own`: the same columns through the same functions are the same numbers.
 fn measured(folder: &Path, own: &Value) -> Scored {
     let scored = Scored::read(folder).unwrap();
-    assert!(scored.missing.is_empty(), "{:?}", scored.missing);
-    assert!(!scored.record.metrics.is_empty());
+    assert!(scored.missing.is_empty() && !scored.record.metrics.is_empty(), "{:?}", scored.missing);
     for (name, measured) in &scored.record.metrics {
         assert_eq!(json!(measured.value), own["metrics"][name]["value"], "{} {name}", scored.case.name);
     }

@@ -20,7 +20,7 @@ use crate::record::{Discretisation, Measured, Record};
 use crate::spec::RunSpec;
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
-use crate::wanted::{Wanted, settled};
+use crate::wanted::settled;
 use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -136,18 +136,12 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
 
 /// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, their
 /// discrete equations bind nobody, and what is measured from a column that is missing, or left open by the rows of the
-/// series, is not judged. A wanted quantity that no column gives is not asked for.
+/// series, is not judged.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
     let unjudged = |v: Verdict, why: String| Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v };
     let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping) && foreign.asks(&v.check);
-    let verdicts: Vec<Verdict> = case.verdicts(record).into_iter().filter(of_code).collect();
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
-    let is_given = |w: &&Wanted| {
-        let mut own = verdicts.iter().filter(|v| w.is_judged_by(&v.check)).peekable();
-        own.peek().is_none() || own.any(|v| group_of(v).is_some())
-    };
-    let wanted: Vec<Wanted> = case.wanted.iter().filter(is_given).copied().collect();
-    let judged = verdicts.into_iter().filter_map(|v| {
+    let judged = case.verdicts(record).into_iter().filter(of_code).filter_map(|v| {
         let group = group_of(&v)?;
         let mut lacking = group.columns.iter().filter(|c| !given.has(c)).peekable();
         if lacking.peek().is_none() {
@@ -161,7 +155,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
         let why = format!("missing: {}", lacking.collect::<Vec<_>>().join(", "));
         Some(unjudged(v, why))
     });
-    settled(&wanted, judged.collect())
+    settled(&case.wanted, judged.collect())
 }
 
 #[cfg(test)]

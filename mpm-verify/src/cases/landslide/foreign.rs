@@ -32,11 +32,16 @@ where
             let slide = Slide::<D>::new(given.setup()?)?;
             Ok(vec![(OVERBURDEN_ERROR, slide.overburden_error(&references, stress))])
         }),
-        Group::new(&[TIME, BASE], [BASE_REACTION_RATIO], of_slide::<D>),
-        Group::new(&[TIME, TOE], [RUNOUT_2_5S, RUNOUT_END], of_slide::<D>),
-        Group::new(&[TIME, SETTLEMENT], [SETTLEMENT_AT_REST, SETTLEMENT_END], of_slide::<D>),
-        Group::new(&[TIME, FAILED], [FAILED_SHARE_END, FAILURE_TIME], of_slide::<D>),
-        Group::new(&[TIME, KINETIC, POTENTIAL, STORED, DISSIPATED], [UNACCOUNTED_ENERGY, FALLEN_ENERGY], of_slide::<D>),
+        Group::new(&[TIME, BASE], [BASE_REACTION_RATIO], |given| {
+            let slide = Slide::<D>::new(given.setup()?)?;
+            let mass = slide.begin(&slide.unseen())?.totals().mass;
+            let rest = rows(given, f64::INFINITY).0.unwrap_or_default();
+            Ok(vec![slide.base_reaction(&rest, mass)])
+        }),
+        Group::new(&[TIME, TOE], [RUNOUT_2_5S, RUNOUT_END], of_slide),
+        Group::new(&[TIME, SETTLEMENT], [SETTLEMENT_AT_REST, SETTLEMENT_END], of_slide),
+        Group::new(&[TIME, FAILED], [FAILED_SHARE_END, FAILURE_TIME], of_slide),
+        Group::new(&[TIME, KINETIC, POTENTIAL, STORED, DISSIPATED], [UNACCOUNTED_ENERGY, FALLEN_ENERGY], of_slide),
     ];
     Foreign { abscissa: Some(TIME), gaps, ..Foreign::of::<D, Slide<D>>(groups) }
 }
@@ -60,17 +65,10 @@ fn rows(given: &Given, duration: f64) -> (Option<State>, Vec<State>) {
     (all().rfind(|row| row.time.abs() <= AT_ONCE), all().filter(slides).collect())
 }
 
-fn of_slide<const D: usize>(given: &Given) -> Measured
-where
-    HenckyJ2: Solvable<D>,
-{
-    let slide = Slide::<D>::new(given.setup()?)?;
-    let (rest, rows) = rows(given, given.setup::<Landslide>()?.duration);
-    let rest = rest.unwrap_or_default();
-    let mass = slide.begin(&slide.unseen())?.totals().mass;
-    let mut values = Rows { rows }.metrics(&slide.ground.slope.section, &rest);
-    values.push(slide.base_reaction(&rest, mass));
-    Ok(values)
+fn of_slide(given: &Given) -> Measured {
+    let setup = given.setup::<Landslide>()?;
+    let (rest, rows) = rows(given, setup.duration);
+    Ok(Rows { rows }.metrics(&setup.slope().section, &rest.unwrap_or_default()))
 }
 
 /// The rows show the ground at rest, and the slide to its end.

@@ -111,7 +111,7 @@ impl Setup<Landslide> {
 /// A slide: first under rising gravity with its full strength, then with the reduced one.
 pub(super) struct Slide<const D: usize> {
     setup: Setup<Landslide>,
-    pub(super) ground: Ground<D>,
+    ground: Ground<D>,
     /// Places (m) of the particles in the section.
     reference: Vec<[f64; 2]>,
 }

@@ -35,8 +35,10 @@ fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
     for check in ["front", "arrival"] {
         assert_eq!(found(&sound, check)[0].0, Outcome::Right, "{:?}", found(&sound, check));
     }
-    // The pressure behind the gate, which no column gives, is not asked for.
-    assert!(gate::gate(true, &["front"]).refusal(&sound).is_none());
+    assert!(gate::gate(false, &["front"]).refusal(&sound).is_none());
+    // The pressure behind the gate is wanted too.
+    let strict = gate::gate(true, &["front"]).refusal(&sound).unwrap_or_default();
+    assert!(strict.contains("pressure (pressure-profile: missing: "), "{strict}");
     let changes: [(Change, &str); 5] = [
         (|rows| rows.iter_mut().for_each(|row| row.0 *= 1000.0), "begins at time"),
         (|rows| rows.iter_mut().for_each(|row| row.0 += 1.0), "begins at time"),

@@ -41,9 +41,10 @@ fn the_schema_is_that_of_the_reader() {
     assert_eq!(schema["properties"]["case"]["enum"], json!(scored));
 }
 
-/// Every case that scores has its problem in words, whose names in backquotes are parameters, columns or files.
+/// Every case that scores has its problem in words, whose names in backquotes are parameters or columns, and measures what
+/// is wanted of it.
 #[test]
-fn every_problem_is_told() {
+fn every_problem_has_its_words_and_measures_what_is_wanted() {
     for (case, foreign) in cases::scored() {
         let level = case.levels[0].name;
         let result = Answer::exported(case.name, level, &[]);
@@ -59,6 +60,11 @@ fn every_problem_is_told() {
                 || starts
                 || ["basis", "linear", "gimp", "bspline2", "bspline3", "cost.steps"].contains(&name)
         };
+        let reference = result.text("reference.csv");
+        for wanted in case.wanted.iter().filter(|w| !w.only_where_referenced) {
+            let is_measured = wanted.names().split(", ").any(|check| reference.contains(&format!("\n{check},")));
+            assert!(is_measured, "{}: {}", case.name, wanted.name);
+        }
         for line in words.as_array().unwrap() {
             for name in line.as_str().unwrap().split('`').skip(1).step_by(2) {
                 assert!(known(name), "{}: {name}", case.name);
