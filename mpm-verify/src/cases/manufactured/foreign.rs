@@ -18,17 +18,20 @@ const AVERAGED: Asked = Asked::particle(
     "volume ratio J that the pressure is computed from at the end, averaged or not",
 );
 
-/// A row every this share of a period shows zeros to 4·10⁻³ of a radian: straight lines miss one of sin φ by 0.016 Δφ³.
+/// With these rows a period, Δφ apart, straight lines miss a zero of sin φ by at most 0.016 Δφ³ = 4·10⁻³ rad.
 const ROWS_PER_PERIOD: f64 = 10.0;
 /// Rows in which thirds of a run at rest are compared.
 const ROWS: f64 = 30.0;
 
-/// The motion, and the rows of a code after its exact start.
+/// The motion by the steps of a code, and its rows, after the exact start if that is not among them.
 fn rows<const D: usize, K: Known>(given: &Given) -> Result<(Motion<D, K>, Vec<Sample>), Error>
 where
     Motion<D, K>: Problem<D, Parameters = Own<K>>,
 {
-    let motion = Motion::new(given.setup()?)?;
+    let mut motion = Motion::new(given.setup()?)?;
+    if given.discretisation.dt.is_finite() {
+        motion.timing.dt = given.discretisation.dt;
+    }
     let start = motion.sample(motion.begin(&motion.unseen())?.as_ref());
     let row = |k| Sample {
         time: given.value(&TIME, k),
@@ -36,9 +39,9 @@ where
         energy: given.value(&ENERGY, k),
         mode: given.value(&SHAPE, k),
     };
-    let rows = (0..given.rows(Part::Series)).map(row).filter(|row| row.time > 0.0);
-    let rows = std::iter::once(start).chain(rows).collect();
-    Ok((motion, rows))
+    let rows: Vec<Sample> = (0..given.rows(Part::Series)).map(row).collect();
+    let start = rows.first().is_none_or(|row| row.time > 0.0).then_some(start);
+    Ok((motion, start.into_iter().chain(rows).collect()))
 }
 
 /// Metrics of a standing wave.

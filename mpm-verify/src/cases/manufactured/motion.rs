@@ -22,7 +22,7 @@ const SCALE_TIMES: u32 = 20;
 /// A motion beside its exact solution.
 pub(in crate::cases) struct Motion<const D: usize, K> {
     scenario: Scenario<K>,
-    timing: Timing,
+    pub(super) timing: Timing,
     steps_per_row: u64,
     /// Angular frequency (rad/s) of a solution that is one standing wave.
     frequency: Option<f64>,
