@@ -167,7 +167,7 @@ fn what_a_manifest_names_is_refused_by_its_key() {
         ("case", json!("cok"), "case: unknown case"),
         ("level", json!("n9"), "level: unknown level"),
         ("parameters", json!({"laod": 1}), "parameters: unknown parameter"),
-        ("parameters", json!({"load": 3}), "parameter load: 3 is out of range"),
+        ("parameters", json!({"load": 3}), "parameter load: \"3\" is out of range"),
         ("parameters", json!({"load": [0.3]}), "a number, boolean or word is allowed"),
         ("schema", json!(2), "schema 2 where 1 is read"),
         ("partikles", json!("a.csv"), "is `particles` meant?"),
