@@ -4,11 +4,13 @@ use crate::error::Error;
 use crate::job::Column;
 use crate::metric::Metric;
 use crate::parameter::{ParameterSet, Parameters};
+use crate::problem::Problem;
 use crate::record::Discretisation;
-use crate::scheme::{BasisName, Scheme};
+use crate::scheme::{BasisName, RemedyName, Scheme};
 use crate::setup::Setup;
 use crate::spec::RunSpec;
 use crate::table::Table;
+use mpm_core::Particles;
 use std::path::{Path, PathBuf};
 
 /// Most rows of a table.
@@ -77,9 +79,15 @@ impl Asked {
     }
 }
 
-/// Where a particle of a plane starts.
+/// Columns that several cases ask for: where a particle of a plane starts, its pressure, times and energies.
 pub(crate) const START_X: Asked = Asked::particle("reference_x", "m", "x before anything moves");
 pub(crate) const START_Y: Asked = Asked::particle("reference_y", "m", "y before anything moves");
+pub(crate) const MEAN_STRESS: Asked =
+    Asked::particle("mean_stress", "Pa", "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive");
+pub(crate) const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
+pub(crate) const STRESS_WORK: Asked =
+    Asked::series("stress_work", "J/m", "work of the stress on the body since the start: what it stores and loses");
+pub(crate) const POTENTIAL: Asked = Asked::series("potential_energy", "J/m", "Σ m g y, zero at the floor");
 
 /// Letters and digits of a head.
 fn letters(head: &str) -> String {
@@ -150,6 +158,17 @@ pub struct Group {
     pub measure: fn(&Given) -> Measured,
 }
 
+impl Group {
+    /// Metrics that `measure` takes from these columns.
+    pub(crate) fn new(
+        columns: &'static [Asked],
+        metrics: impl IntoIterator<Item = Metric>,
+        measure: fn(&Given) -> Measured,
+    ) -> Self {
+        Self { columns, metrics: metrics.into_iter().collect(), measure }
+    }
+}
+
 /// A curve of a reference, to be compared with: the name of its file, and its columns with their units.
 pub type Curve = (&'static str, Vec<(String, Vec<f64>)>);
 
@@ -157,8 +176,8 @@ pub type Curve = (&'static str, Vec<(String, Vec<f64>)>);
 pub struct Foreign {
     /// The scheme that a code with these functions is judged as: one whose results are to be right.
     pub judged_as: fn(BasisName) -> Scheme,
-    /// Discretisation as far as it is known, given the time step (s).
-    pub discretisation: fn(&RunSpec, &Parameters, f64) -> Discretisation,
+    /// Discretisation of a run of ours.
+    pub discretisation: fn(&RunSpec, &Parameters) -> Result<Discretisation, Error>,
     /// Groups of metrics, each with the columns it needs.
     pub groups: Vec<Group>,
     /// The column by which the rows of the series are ordered, if there is one.
@@ -167,17 +186,43 @@ pub struct Foreign {
     pub gaps: fn(&Given) -> Gaps,
     /// The particles before anything moves.
     pub start: fn(&RunSpec, &Parameters) -> Result<Vec<Column>, Error>,
-    /// The problem in words: body, supports, loads, end.
-    pub setup: &'static [&'static str],
     /// Curves of the reference.
     pub curves: fn(&Parameters) -> Vec<Curve>,
+    /// Checks by the discrete equations of our schemes, which are no demand on another code.
+    pub own_checks: &'static [&'static str],
 }
 
 impl Foreign {
+    /// Of the problem `P` in `D` dimensions, with these groups. A code is judged as quadratic splines with `fbar-consistent`,
+    /// and its rows leave nothing open.
+    pub(crate) fn of<const D: usize, P: Problem<D>>(groups: Vec<Group>) -> Self
+    where
+        P::Parameters: ParameterSet,
+    {
+        Self {
+            judged_as: |_| Scheme::flip(BasisName::Bspline2, RemedyName::FbarConsistent),
+            discretisation: |spec, parameters| Ok(P::new(Setup::of_spec(spec, parameters)?)?.discretisation()),
+            groups,
+            abscissa: None,
+            gaps: |_| Ok(Vec::new()),
+            start: |spec, parameters| {
+                let problem = P::new(Setup::of_spec(spec, parameters)?)?;
+                Ok(start_columns(problem.begin(&problem.unseen())?.particles()))
+            },
+            curves: |_| Vec::new(),
+            own_checks: &[],
+        }
+    }
+
     /// The columns, each once.
     #[must_use]
     pub fn columns(&self) -> Vec<Asked> {
         crate::distinct(self.groups.iter().flat_map(|g| g.columns).copied())
+    }
+
+    /// Whether a check of the case judges another code.
+    pub(crate) fn asks(&self, check: &str) -> bool {
+        !self.own_checks.contains(&check)
     }
 
     /// Its tables.
@@ -185,6 +230,26 @@ impl Foreign {
     pub fn parts(&self) -> Vec<Part> {
         crate::distinct(self.columns().iter().map(|c| c.part))
     }
+}
+
+/// The particles of a body before anything moves, as another code needs them: places, masses, volumes, and the volume ratio
+/// where there is one.
+pub(crate) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
+    const AXES: [[&str; 3]; 2] = [["reference_x", "reference_y", "reference_z"], ["x", "y", "z"]];
+    const UNITS: [[&str; 2]; 3] = [["kg/m²", "m"], ["kg/m", "m²"], ["kg", "m³"]];
+    let column = |name, unit, of: &dyn Fn(usize) -> f64| Column { name, unit, values: particles.seeded(of) };
+    let of_places = AXES
+        .iter()
+        .zip([&particles.reference, &particles.position])
+        .flat_map(|(names, places)| (0..D).map(move |a| column(names[a], "m", &|k| places[k][a])));
+    let mut columns: Vec<Column> = of_places.collect();
+    let [mass, volume] = UNITS[D - 1];
+    columns.push(column("mass", mass, &|k| particles.mass[k]));
+    columns.push(column("reference_volume", volume, &|k| particles.reference_volume[k]));
+    if particles.jacobian.iter().any(|j| *j != 1.0) {
+        columns.push(column("jacobian", "-", &|k| particles.jacobian[k]));
+    }
+    columns
 }
 
 /// Columns that a code supplies of one run.
@@ -195,6 +260,8 @@ pub struct Given {
     pub parameters: Parameters,
     /// The discretisation.
     pub discretisation: Discretisation,
+    /// Steps, if they are known.
+    pub steps: Option<u64>,
     /// The tables.
     pub tables: Vec<(Part, PathBuf, Table)>,
 }
@@ -213,6 +280,11 @@ impl Given {
         let table = self.tables.iter().find(|(part, ..)| *part == asked.part);
         let column = table.and_then(|(.., table)| table.get(&asked.header()));
         column.unwrap_or_default()
+    }
+
+    /// The value of a column in a row; zero if it is not there: no group takes what is measured of that.
+    pub(crate) fn value(&self, asked: &Asked, row: usize) -> f64 {
+        self.column(asked).get(row).copied().unwrap_or_default()
     }
 
     /// Whether a column is there.
@@ -317,149 +389,4 @@ impl Given {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::case::Tier;
-    use crate::cases;
-
-    const X: Asked = Asked::particle("x0", "m", "");
-    const Y: Asked = Asked::particle("y0", "m", "");
-    const TIME: Asked = Asked::series("time", "s", "");
-    const FORCE: Asked = Asked::series("force", "N", "");
-
-    /// Two particles, and a series of three rows, with these heads.
-    fn given(heads: [&str; 2]) -> Given {
-        let case = cases::find("cook").unwrap();
-        let spec = case.runs(Tier::Pr).remove(0);
-        let column = |head: &str, values: &[f64]| (head.to_owned(), values.to_vec());
-        let particles = vec![column("x0 (m)", &[0.75, 0.25]), column("y0 (m)", &[0.25, -0.25])];
-        let series = vec![column(heads[0], &[0.0, 1.0, 2.0]), column(heads[1], &[0.0, 3.0, 5.0])];
-        let tables = [(Part::Particles, particles), (Part::Series, series)];
-        let table = |(part, columns): (Part, _)| {
-            let path = PathBuf::from(part.name()).with_extension("csv");
-            (part, path, Table::of_columns(columns))
-        };
-        Given {
-            parameters: Parameters::new(&case.parameters, &[]).unwrap(),
-            discretisation: Discretisation { dim: 2, h: spec.level.h, ppc: 4, dt: 1.0, wall: String::new() },
-            spec,
-            tables: tables.map(table).into(),
-        }
-    }
-
-    #[test]
-    fn columns_are_those_of_their_own_table() {
-        let given = given(["time (s)", "force (kN)"]);
-        assert_eq!(given.column(&X), [0.75, 0.25]);
-        assert_eq!(given.column(&TIME), [0.0, 1.0, 2.0]);
-        let elsewhere = Asked { part: Part::Series, ..X };
-        for missing in [elsewhere, FORCE] {
-            assert!(!given.has(&missing) && given.column(&missing).is_empty());
-        }
-        assert!(given.has(&X) && given.has(&TIME));
-        assert_eq!([Part::Particles, Part::Series].map(|p| given.rows(p)), [2, 3]);
-        assert_eq!(given.points([&X, &Y]), [[0.75, 0.25], [0.25, -0.25]]);
-        let none = Given { tables: Vec::new(), ..given };
-        assert_eq!(none.rows(Part::Series), 0);
-    }
-
-    #[test]
-    fn columns_and_tables_are_asked_for_once() {
-        fn nothing(_: &Given) -> Measured {
-            Ok(Vec::new())
-        }
-        let group = |columns| Group { columns, metrics: Vec::new(), measure: nothing };
-        let (_, own) = cases::find_scored("cook").unwrap();
-        let foreign = Foreign {
-            groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])],
-            judged_as: own.judged_as,
-            discretisation: own.discretisation,
-            abscissa: None,
-            gaps: own.gaps,
-            start: own.start,
-            setup: own.setup,
-            curves: own.curves,
-        };
-        assert_eq!(foreign.columns(), [X, TIME, Y, FORCE]);
-        assert_eq!(foreign.parts(), [Part::Particles, Part::Series]);
-        let names: Vec<&str> = foreign.parts().into_iter().map(Part::name).collect();
-        assert_eq!(names, ["particles", "series"]);
-    }
-
-    #[test]
-    fn particles_are_known_by_where_they_start_in_any_order() {
-        let given = given(["time (s)", "force (N)"]);
-        // Anywhere in their parts, half a metre wide.
-        let order = |seeded: &[[f64; 2]]| given.in_order([&X, &Y], seeded, 0.5);
-        assert_eq!(order(&[[0.1, -0.4], [0.9, 0.1]]).unwrap(), [1, 0]);
-        assert_eq!(order(&[[0.9, 0.1], [0.1, -0.4]]).unwrap(), [0, 1]);
-        for (seeded, why) in [
-            (&[[0.25, -0.25]][..], "2 particles where 1 start"),
-            (&[[0.25, -0.25], [0.75, 0.75]], "no particle starts at (0.75, 0.75) m"),
-        ] {
-            let told = order(seeded).unwrap_err().to_string();
-            assert!(told.contains("particles.csv") && told.contains(why), "{told}");
-        }
-    }
-
-    #[test]
-    fn heads_have_the_unit_that_is_asked_for() {
-        let asked = [X, Y, TIME, FORCE];
-        let heads = |heads| given(heads).require_heads(&asked);
-        assert!(heads(["time (s)", "force (N)"]).unwrap().is_empty());
-        assert_eq!(heads(["time (s)", "work (J)"]).unwrap(), ["work (J)"]);
-        // Columns of the other table don't count here.
-        assert_eq!(heads(["time (s)", "x0 (m)"]).unwrap(), ["x0 (m)"]);
-        let told = heads(["time (s)", "force (kN)"]).unwrap_err().to_string();
-        let said = "column \"force (kN)\"; allowed: \"force (N)\"";
-        assert!(told.contains("series.csv") && told.contains(said), "{told}");
-    }
-
-    #[test]
-    fn a_head_that_misses_a_name_by_its_form_is_refused_with_the_name() {
-        let asked = [X, Y, TIME, FORCE];
-        for head in [
-            "# force (N)",
-            "#force (N)",
-            "force",
-            "force [N]",
-            "force(N)",
-            "FORCE (N)",
-            " force (N)",
-            "force  (N)",
-            "force ( N )",
-            "force_(N)",
-            "force N",
-            "force, N",
-            "force (n)",
-            "\"force (N)\"",
-            "(force)",
-            "Force {kN}",
-            "force <N>",
-        ] {
-            let told = given(["time (s)", head]).require_heads(&asked).unwrap_err().to_string();
-            let said = format!("column \"{}\"; allowed: \"force (N)\"", crate::error::one_line(head));
-            assert!(told.contains(&said), "{told}");
-        }
-        for other in ["forces (N)", "force_x (N)", "Force on base (N)", "#", "", "(N)"] {
-            assert_eq!(given(["time (s)", other]).require_heads(&asked).unwrap(), [other]);
-        }
-    }
-
-    #[test]
-    fn a_table_has_a_row_and_not_too_many() {
-        let rows = |count: usize| {
-            let mut given = given(["time (s)", "force (N)"]);
-            let column = ("time (s)".to_owned(), vec![0.0; count]);
-            given.tables = vec![(Part::Series, "a.csv".into(), Table::of_columns(vec![column]))];
-            given.require_heads(&[TIME]).map_err(|e| e.to_string())
-        };
-        for count in [1, MOST_ROWS] {
-            assert!(rows(count).is_ok());
-        }
-        for count in [0, MOST_ROWS + 1] {
-            let told = rows(count).unwrap_err();
-            assert!(told.contains(&format!("{count} rows where 1 to {MOST_ROWS}")), "{told}");
-        }
-    }
-}
+mod tests;

@@ -2,11 +2,13 @@
 //!
 //! Set-up, choices and tolerances: `docs/column.md`.
 
+use super::manufactured::foreign::{TIME, gaps_of_rest, of_rest};
 use super::manufactured::*;
 use super::parameters::DENSITY;
 use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
+use crate::foreign::Foreign;
 
 /// Half a million steps at h = 0.25 m.
 const HALF_A_MILLION: &str = "duration=5.04";
@@ -76,6 +78,14 @@ pub(super) fn case() -> Case {
             ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
         ],
     )])
+}
+
+pub(super) fn foreign() -> Foreign {
+    Foreign {
+        abscissa: Some(TIME),
+        gaps: gaps_of_rest,
+        ..Foreign::of::<2, Motion<2, WaterColumn>>(of_rest::<WaterColumn>())
+    }
 }
 
 /// Whether a mode that the average can't see grows with this scheme until it rules the motion.

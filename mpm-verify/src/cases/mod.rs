@@ -21,7 +21,6 @@ mod excavation;
 mod family;
 mod footing;
 mod forms;
-mod growth;
 mod landslide;
 mod mandel;
 mod manufactured;
@@ -112,7 +111,13 @@ static FOREIGN: LazyLock<Vec<(&str, Foreign)>> = LazyLock::new(|| {
         ("cook", cook::foreign::foreign()),
         ("footing", footing::foreign::foreign()),
         ("dam-break", dam_break::foreign::foreign()),
+        ("landslide", landslide::foreign::foreign::<3>()),
+        ("landslide-2d", landslide::foreign::foreign::<2>()),
+        ("slope-stability", slope_stability::foreign::foreign()),
+        ("vibrating-bar", vibrating_bar::foreign()),
+        ("column", column::foreign()),
         ("cantilever", cantilever::foreign::foreign()),
+        ("terzaghi", terzaghi::foreign::foreign()),
         ("consolidation", consolidation::foreign::foreign()),
     ]
 });

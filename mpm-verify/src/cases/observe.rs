@@ -1,8 +1,7 @@
 //! Set-up and observation shared by several problems.
 
-use super::parameters::{self, ALPHA, DELTA, LUMPED, PPC_PER_DIRECTION, TOLERANCE, WALL, WALL_LINE};
+use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
 use crate::cases::prelude::*;
-use crate::job::Column;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
@@ -100,12 +99,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 }
 
-/// Discretisation of a run in `dim` dimensions with steps of `dt` (s).
-pub(super) fn discretisation(dim: usize, spec: &RunSpec, parameters: &Parameters, dt: f64) -> Discretisation {
-    let per_direction = parameters.number(PPC_PER_DIRECTION);
-    Discretisation { dim, h: spec.level.h, ppc: per_direction.powi(dim as i32) as u32, dt, wall: parameters.text(WALL) }
-}
-
 /// Whether a static step has found equilibrium. One that has not leaves the body as it was.
 ///
 /// # Errors
@@ -117,35 +110,6 @@ pub(super) fn finds_equilibrium(step: Result<(), mpm_core::Error>) -> Result<boo
         Err(NoConvergence { .. } | Singular { .. } | Breakdown { .. }) => Ok(false),
         Err(other) => Err(other),
     }
-}
-
-/// Where particles are.
-pub(super) fn position_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let axes = ["x", "y", "z"].into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.position[k][a]))).collect()
-}
-
-/// Where particles were before any motion.
-pub(super) fn reference_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let axes = ["reference_x", "reference_y", "reference_z"];
-    let axes = axes.into_iter().take(D).enumerate();
-    axes.map(|(a, name)| column(name, "m", particles.seeded(|k| particles.reference[k][a]))).collect()
-}
-
-/// The particles of a body before anything moves, as another code needs them: places, masses, volumes.
-pub(super) fn start_columns<const D: usize>(particles: &Particles<D>) -> Vec<Column> {
-    let (mass, volume) = match D {
-        1 => ("kg/m²", "m"),
-        2 => ("kg/m", "m²"),
-        _ => ("kg", "m³"),
-    };
-    let mut columns = reference_columns(particles);
-    columns.extend(position_columns(particles));
-    let seeded = |of: &[f64]| particles.seeded(|k| of[k]);
-    columns.push(column("mass", mass, seeded(&particles.mass)));
-    let volumes = seeded(&particles.reference_volume);
-    columns.push(column("reference_volume", volume, volumes));
-    columns
 }
 
 /// Displacement (m) along an axis, in seeding order.
@@ -167,11 +131,6 @@ pub(super) fn farthest(before: &[[f64; 2]], now: &[[f64; 2]]) -> f64 {
     distance.fold(0.0, f64::max)
 }
 
-/// A named particle column; values in seeding order.
-pub(super) fn column(name: &'static str, unit: &'static str, values: Vec<f64>) -> Column {
-    Column { name, unit, values }
-}
-
 /// Mean normal stress (Pa) as it enters the forces and its average Π, in seeding order.
 pub(super) fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
     let mean = run.field(Field::MeanStress);
@@ -180,71 +139,12 @@ pub(super) fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
     (p.seeded(|k| mean[k]), p.seeded(|k| averaged[k]))
 }
 
-/// Rms of a field less its plane of best fit in each square of a `size` (m): an oscillation from particle to particle or
-/// from cell to cell, whoever computed it. A square of three particles or less has its mean.
-pub(super) fn oscillation(places: &[[f64; 2]], field: &[f64], size: f64) -> f64 {
-    let mut squares = std::collections::BTreeMap::<[i64; 2], Vec<Valued>>::new();
-    for (x, value) in places.iter().zip(field) {
-        let square = x.map(|x| (x / size).floor() as i64);
-        squares.entry(square).or_default().push((*x, *value));
-    }
-    rms(squares.into_values().flat_map(off_plane))
-}
-
-/// A point (m) and a value.
-type Valued = ([f64; 2], f64);
-
-/// Values of points less their plane of best fit.
-fn off_plane(points: Vec<Valued>) -> Vec<f64> {
-    let mean = |of: &dyn Fn(&Valued) -> f64| points.iter().map(of).sum::<f64>() / points.len() as f64;
-    let centre = [0, 1].map(|axis| mean(&|p| p.0[axis]));
-    let middle = mean(&|p| p.1);
-    let moment = |of: &dyn Fn([f64; 2], f64) -> f64| {
-        mean(&|(x, value)| of([x[0] - centre[0], x[1] - centre[1]], value - middle))
-    };
-    let [xx, xy, yy] = [moment(&|d, _| d[0] * d[0]), moment(&|d, _| d[0] * d[1]), moment(&|d, _| d[1] * d[1])];
-    let [xv, yv] = [0, 1].map(|axis| moment(&move |d, v| d[axis] * v));
-    let determinant = xx * yy - xy * xy;
-    let slope = match points.len() > 3 && determinant > 1e-9 * xx * yy {
-        true => [(xv * yy - yv * xy) / determinant, (yv * xx - xv * xy) / determinant],
-        false => [0.0; 2],
-    };
-    let off =
-        |(x, value): &([f64; 2], f64)| value - middle - slope[0] * (x[0] - centre[0]) - slope[1] * (x[1] - centre[1]);
-    points.iter().map(off).collect()
-}
-
-/// Rms of what Π takes from a field: the oscillation from particle to particle.
-pub(super) fn checkerboard(field: &[f64], averaged: &[f64]) -> f64 {
-    rms(field.iter().zip(averaged).map(|(f, a)| f - a))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameter::Parameters;
     use crate::scheme::{BasisName, RemedyName};
-    use crate::spec::Level;
-
-    #[test]
-    fn what_is_its_own_average_does_not_oscillate_and_a_checkerboard_does() {
-        assert_eq!(checkerboard(&[3.0, -1.0], &[3.0, -1.0]), 0.0);
-        assert_eq!(checkerboard(&[3.0, -1.0], &[1.0, 1.0]), 2.0);
-    }
-
-    #[test]
-    fn a_plane_does_not_oscillate_and_a_checkerboard_on_it_does() {
-        let places: Vec<[f64; 2]> =
-            (0..64).map(|k| [0.25 + 0.5 * f64::from(k % 8), 0.5 * f64::from(k / 8) - 3.9]).collect();
-        let plane = |x: &[f64; 2]| 3.0 - 2.0 * x[0] + 5.0 * x[1];
-        let board = |k: usize| if (k % 8 + k / 8).is_multiple_of(2) { 1.0 } else { -1.0 };
-        let fields = [0.0, 7.0].map(|amplitude| {
-            let value = |(k, x): (usize, &[f64; 2])| plane(x) + amplitude * board(k);
-            oscillation(&places, &places.iter().enumerate().map(value).collect::<Vec<f64>>(), 2.0)
-        });
-        assert!(fields[0] < 1e-12 && (fields[1] - 7.0).abs() < 1e-9, "{fields:?}");
-        // Two points have a mean and no plane.
-        assert_eq!(oscillation(&[[0.0, 0.0], [0.1, 0.0]], &[1.0, -1.0], 1.0), 1.0);
-    }
+    use crate::spec::{Level, RunSpec};
 
     #[test]
     fn the_particle_that_moved_farthest_decides() {

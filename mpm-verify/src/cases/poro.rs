@@ -1,6 +1,7 @@
 //! Scenes and observations that cases of solid and water share.
 
 use crate::cases::prelude::*;
+use mpm_core::Law;
 use mpm_core::poro::PressureSpace;
 
 /// Weight of water (N/m³).
@@ -14,6 +15,48 @@ pub(super) const TOLERANCE: Parameter =
     real("-", "1e-10", 1e-13, 1e-8).named("tolerance").meaning("residual of a converged step over what it balances");
 /// Smaller values are rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
+
+/// Height (m) of a column, particles a cell, and empty cells above.
+pub(super) const HEIGHT: f64 = 1.0;
+pub(super) const PER_CELL: usize = 2;
+const ROOM: usize = 2;
+
+/// A column on a sealed floor.
+///
+/// # Errors
+/// Cells that make no grid.
+pub(super) fn column<P: ParameterSet, L: Law>(setup: &Setup<P>, law: L) -> Result<Scene<1, L>, mpm_core::Error> {
+    let (h, cells) = (setup.h, (HEIGHT / setup.h).round() as usize);
+    let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
+    let spacing = h / PER_CELL as f64;
+    // Nothing moves by its weight: any density will do.
+    let particles = setup.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
+    Ok(Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo)))
+}
+
+/// Whether a particle of a column on cells of size `h` (m) is its topmost.
+pub(super) fn topmost(h: f64) -> impl Fn(&[f64; 1]) -> bool + Copy {
+    move |x| x[0] > HEIGHT - h / PER_CELL as f64
+}
+
+/// What is kept of particles: where they start, and what they hold of the water and along the first axis.
+pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
+    columns.references().field("pore_pressure", "Pa", Field::PorePressure).field("porosity", "-", Field::Porosity).each(
+        "effective_stress_xx",
+        "Pa",
+        |p, k| p.stress[k].xx,
+    )
+}
+
+/// A column under its load.
+pub(super) fn column_sketch(description: &'static str) -> Sketch {
+    Sketch::of(description)
+        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+        .held([0.0, 0.0], [0.3, 0.0])
+        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
+        .note([0.15, 1.2], "q, drained")
+        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02])
+}
 
 /// The three pressure spaces with the functions `basis`.
 pub(super) fn spaces(basis: BasisName) -> [Scheme; 3] {
@@ -39,8 +82,13 @@ impl<P: ParameterSet> Setup<P> {
 
     /// τ M of a projection by the parameter `projection`; zero without one.
     pub(super) fn projection_strength(&self) -> f64 {
-        match self.space() {
-            Some(Ppp) => self.values.number(PROJECTION) * self.oedometric_modulus() / (2.0 * self.shear_modulus()),
+        self.space().map_or(0.0, |space| self.strength_in(space))
+    }
+
+    /// The same in a pressure space.
+    pub(super) fn strength_in(&self, space: SpaceName) -> f64 {
+        match space {
+            Ppp => self.values.number(PROJECTION) * self.oedometric_modulus() / (2.0 * self.shear_modulus()),
             _ => 0.0,
         }
     }
@@ -95,6 +143,11 @@ pub(super) fn outflow<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 /// |`volume` / outflow|.
 pub(super) fn over_outflow<const D: usize>(run: &dyn Simulation<D>, volume: f64) -> f64 {
     run.water().map_or(f64::NAN, |w| (volume / w.outflow).abs())
+}
+
+/// An overshoot; zero where it is at most [`ROUNDING`].
+pub(super) fn beyond_rounding(overshoot: f64) -> f64 {
+    if overshoot > ROUNDING { overshoot } else { 0.0 }
 }
 
 /// Change of the volume and outflow together, over the outflow, at least [`ROUNDING`].

@@ -2,12 +2,14 @@
 //!
 //! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
+use super::manufactured::foreign::{TIME, gaps_of_wave, of_wave};
 use super::manufactured::*;
 use super::parameters::{ALPHA, DELTA, DYNAMIC, LUMPED};
 use crate::cases::prelude::*;
 use crate::exact;
 use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
+use crate::foreign::Foreign;
 
 const LEVELS: [(&str, &str); 4] = [("n8", "8"), ("n16", "16"), ("n32", "32"), ("n64", "64")];
 const ORDERS: &[(Metric, Claims)] = &[(FREQUENCY_ERROR, claim_of_frequency), (DAMPING, claim_of_damping)];
@@ -118,6 +120,10 @@ pub(super) fn case() -> Case {
     .quantity(error(FREQUENCY_ERROR, "relative error of the frequency"))
     .quantity(error(DAMPING, "−ln of the amplitude's ratio"))
     .tables(vec![results(), softenings(), over_rules()])
+}
+
+pub(super) fn foreign() -> Foreign {
+    Foreign { abscissa: Some(TIME), gaps: gaps_of_wave::<Bar>, ..Foreign::of::<1, Motion<1, Bar>>(of_wave::<Bar>()) }
 }
 
 fn results() -> ResultTable {

@@ -15,6 +15,8 @@ use serde_json::{Value, json};
 use std::fmt::Write;
 use std::path::Path;
 
+/// The problems in words, a section a case.
+const PROBLEMS: &str = include_str!("../../assets/problems.md");
 /// File of the particles before anything moves.
 const START: &str = "start.csv";
 
@@ -34,8 +36,9 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let columns = start.into_iter();
     let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns.collect()).write(&folder.join(START))?;
-    write_json(&folder.join("parameters.json"), &described(case, foreign, spec, &parameters))?;
-    let demands = demands(case, foreign, spec, &parameters);
+    let discretisation = (foreign.discretisation)(spec, &parameters)?;
+    write_json(&folder.join("parameters.json"), &described(case, spec, &parameters, discretisation.dim))?;
+    let demands = demands(case, foreign, Record::blank(case.name, spec, &parameters, discretisation, 0));
     let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
     let rows = demands.iter().map(|(v, group)| {
@@ -59,8 +62,14 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     Ok(files.into_iter().map(str::to_owned).collect())
 }
 
+/// A problem in words: body, supports, loads, end.
+fn words(case: &str) -> Vec<&'static str> {
+    let section = PROBLEMS.split("\n# ").find_map(|s| s.strip_prefix(case)?.strip_prefix('\n'));
+    section.unwrap_or_default().lines().filter_map(|line| line.strip_prefix("- ")).collect()
+}
+
 /// The problem, as data.
-fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parameters) -> Value {
+fn described(case: &Case, spec: &RunSpec, parameters: &Parameters, dimension: usize) -> Value {
     let values = serde_json::to_value(parameters).unwrap_or_default();
     let told = case
         .parameters
@@ -71,8 +80,8 @@ fn described(case: &Case, foreign: &Foreign, spec: &RunSpec, parameters: &Parame
         "title": case.title,
         "level": spec.level.name,
         "cell_size_m": spec.level.h,
-        "dimension": (foreign.discretisation)(spec, parameters, f64::NAN).dim,
-        "setup": foreign.setup,
+        "dimension": dimension,
+        "setup": words(case.name),
         "parameters": told.collect::<Value>(),
     })
 }
@@ -92,21 +101,15 @@ fn form(case: &Case, foreign: &Foreign, spec: &RunSpec) -> String {
     )
 }
 
-/// Demands of the case's checks on another code: those on a record whose metrics are all zero, of which only the demand
-/// is used.
-fn demands<'a>(
-    case: &Case,
-    foreign: &'a Foreign,
-    spec: &RunSpec,
-    parameters: &Parameters,
-) -> Vec<(Verdict, &'a Group)> {
+/// Demands of the case's checks on another code: those on a record of any number of steps whose metrics are all zero, of
+/// which only the demand is used.
+fn demands<'a>(case: &Case, foreign: &'a Foreign, mut record: Record) -> Vec<(Verdict, &'a Group)> {
+    record.work.steps = u64::MAX;
     let metrics = foreign.groups.iter().flat_map(|g| &g.metrics);
     let zero = |unit: &str| Measured { value: Some(0.0), unit: unit.to_owned() };
-    let discretisation = (foreign.discretisation)(spec, parameters, f64::NAN);
-    let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
     record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
     let verdicts = case.judge(&record).into_iter();
-    let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some());
+    let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some() && foreign.asks(&v.check));
     let of_group = |v: Verdict| {
         let mut groups = foreign.groups.iter();
         let group = groups.find(|g| g.metrics.iter().any(|m| m.name == v.metric))?;
@@ -122,7 +125,8 @@ fn readme(
     files: &[&str],
 ) -> String {
     let mut t = format!("# {}, level {}\n\n", case.title, spec.level.name);
-    for line in foreign.setup {
+    let setup = words(case.name);
+    for line in &setup {
         let _ = writeln!(t, "- {line}");
     }
     let _ = write!(
@@ -131,7 +135,7 @@ fn readme(
          Values of the parameters named above:\n\n",
         spec.level.h
     );
-    let named = |p: &&Parameter| foreign.setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));
+    let named = |p: &&Parameter| setup.iter().any(|s| s.contains(&format!("`{}`", p.name)));
     let rows = case.parameters.iter().filter(named);
     let rows = rows.map(|p| vec![format!("`{}`", p.name), parameters.text(*p), p.unit.to_owned()]);
     t += &Sheet::new(["parameter", "value", "unit"]).with(rows).markdown();

@@ -18,13 +18,13 @@ use crate::files::{TABLE, read as read_file, require_inside};
 use crate::foreign::{Asked, Foreign, Gap, Given, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::{Measured, Record};
+use crate::record::{Discretisation, Measured, Record};
 use crate::spec::RunSpec;
 use crate::study::convergence::convergence;
 use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
-use crate::wanted::{Wanted, settled};
+use crate::wanted::settled;
 use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -149,8 +149,9 @@ impl Scored {
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
         let (tables, lines) = tables(folder, &manifest, foreign)?;
-        let given =
-            Given { discretisation: (foreign.discretisation)(&spec, &parameters, dt), spec, parameters, tables };
+        let own = (foreign.discretisation)(&spec, &parameters).map_err(|e| refuse("parameters", e))?;
+        let (discretisation, steps) = (Discretisation { dt, ..own }, manifest.cost.steps);
+        let given = Given { discretisation, spec, parameters, steps, tables };
         let asked = foreign.columns();
         let unknown = given.require_heads(&asked)?;
         if let Some(abscissa) = &foreign.abscissa {
@@ -230,9 +231,9 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
     Ok((tables, lines))
 }
 
-/// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, and
-/// what is measured from a column that is missing, or left open by the rows of the series, is not judged. A wanted quantity
-/// that no column gives is not asked for.
+/// The verdicts of the case's own checks on what another code can give: a known limit of our schemes excuses nobody, their
+/// discrete equations bind nobody, and what is measured from a column that is missing, or left open by the rows of the
+/// series, is not judged.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
     let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
     let why = |v: &Verdict| {
@@ -243,13 +244,8 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
             false => Some(format!("missing: {}", lacking.join(", "))),
         }
     };
-    let verdicts: Vec<Verdict> = demands(case.verdicts(record), why).collect();
-    let is_given = |w: &&Wanted| {
-        let mut own = verdicts.iter().filter(|v| w.is_judged_by(&v.check)).peekable();
-        own.peek().is_none() || own.any(|v| group_of(v).is_some())
-    };
-    let wanted: Vec<Wanted> = case.wanted.iter().filter(is_given).copied().collect();
-    settled(&wanted, verdicts.into_iter().filter(|v| group_of(v).is_some()).collect())
+    let judged = demands(case.verdicts(record), why).filter(|v| foreign.asks(&v.check) && group_of(v).is_some());
+    settled(&case.wanted, judged.collect())
 }
 
 /// The demands on every code among verdicts, without known limits of our schemes. One with a reason is not judged.

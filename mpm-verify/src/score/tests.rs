@@ -2,6 +2,7 @@
 
 mod coverage;
 mod gate;
+mod schema;
 mod together;
 
 use super::*;
@@ -172,6 +173,16 @@ fn what_a_manifest_names_is_refused_by_its_key() {
         ("case", json!("cok"), "case: unknown case"),
         ("level", json!("n9"), "level: unknown level"),
         ("parameters", json!({"laod": 1}), "parameters: unknown parameter"),
+        ("parameters", json!({"load": 3}), "parameter load: \"3\" is out of range"),
+        ("parameters", json!({"load": [0.3]}), "a number, boolean or word is allowed"),
+        ("schema", json!(2), "schema 2 where 1 is read"),
+        ("partikles", json!("a.csv"), "is `particles` meant?"),
+        ("code", json!({"name": "a", "vesion": "1"}), "is `version` meant?"),
+        ("code", json!({"name": ""}), "a line of 1 to 200"),
+        ("scheme", json!("a\u{1b}[31m"), "a line of 1 to 200"),
+        ("basis", json!("fem"), "expected one of `linear`"),
+        ("time_step_s", json!(0), "a positive, finite number"),
+        ("cost", json!({"cpu": 1}), "is `cpu_s` meant?"),
         ("series", json!("none.csv"), "none.csv"),
     ] {
         let result = Answer::of_column();

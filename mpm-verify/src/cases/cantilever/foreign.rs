@@ -1,8 +1,8 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
 use super::edge::Edge;
+use super::run::Bending;
 use super::*;
-use crate::cases::observe::start_columns;
 use crate::foreign::{Asked, Foreign, Given, Group, START_X, START_Y};
 
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x under the whole weight");
@@ -27,43 +27,16 @@ fn given_edge<const N: usize>(given: &Given, columns: [&Asked; N]) -> Result<Giv
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = STRESSES.iter().map(|(metric, _)| *metric);
     let of_all = [STRESS_MIN, STRESS_MAX, STRESS_ERROR];
-    Foreign {
-        judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None),
-        discretisation: |spec, parameters, _| {
-            let setup = Setup::<Cantilever>::of_spec(spec, parameters);
-            let [ppc, steps] =
-                setup.map_or([0.0; 2], |c| [(c.points_per_direction as f64).powi(2), f64::from(c.load_steps)]);
-            Discretisation { dim: 2, h: spec.level.h, ppc: ppc as u32, dt: 1.0 / steps, wall: "open-knot".to_owned() }
-        },
-        groups: vec![
-            Group {
-                columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
-                metrics: vec![CORNER_UX, CORNER_UY, EDGE_MEAN_UX, EDGE_MEAN_UY, CORNER_ERROR, EDGE_MEAN_ERROR],
-                measure: |given| {
-                    let (edge, setup, [ux, uy]) = given_edge(given, [&MOVED_X, &MOVED_Y])?;
-                    Ok(edge.of_displacement([&ux, &uy], &setup))
-                },
-            },
-            Group {
-                columns: &[START_X, START_Y, STRESS],
-                metrics: of_all.into_iter().chain(stresses).collect(),
-                measure: |given| {
-                    let (edge, setup, [stress]) = given_edge(given, [&STRESS])?;
-                    Ok(edge.of_stress(&stress, &setup))
-                },
-            },
-        ],
-        abscissa: None,
-        gaps: |_| Ok(Vec::new()),
-        start: |spec, parameters| {
-            Ok(start_columns(Setup::<Cantilever>::of_spec(spec, parameters)?.scene()?.particles()))
-        },
-        setup: &[
-            "Plane strain, 0 ≤ x ≤ 1 m, 0 ≤ y ≤ 0.3 m; the side x = 0 is clamped, all others are free.",
-            "The elastic law that `law` names, with `young_modulus` and `poisson_ratio`; hencky: W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b; neo-hookean: W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J.",
-            "In equilibrium under a dead weight of `weight` (N/m³) of the initial volume, downward; in as many steps as you like.",
-            "The particles of start.csv, all of them, in any order: the free end is extrapolated from their last two columns.",
-        ],
-        curves: |_| Vec::new(),
-    }
+    let moved = [CORNER_UX, CORNER_UY, EDGE_MEAN_UX, EDGE_MEAN_UY, CORNER_ERROR, EDGE_MEAN_ERROR];
+    let groups = vec![
+        Group::new(&[START_X, START_Y, MOVED_X, MOVED_Y], moved, |given| {
+            let (edge, setup, [ux, uy]) = given_edge(given, [&MOVED_X, &MOVED_Y])?;
+            Ok(edge.of_displacement([&ux, &uy], &setup))
+        }),
+        Group::new(&[START_X, START_Y, STRESS], of_all.into_iter().chain(stresses), |given| {
+            let (edge, setup, [stress]) = given_edge(given, [&STRESS])?;
+            Ok(edge.of_stress(&stress, &setup))
+        }),
+    ];
+    Foreign { judged_as: |_| Scheme::quasi_static(Bspline2, RemedyName::None), ..Foreign::of::<2, Bending>(groups) }
 }

@@ -1,8 +1,6 @@
 //! Results of other codes.
 
-use super::run::{PER_CELL, Seen};
 use super::*;
-use crate::cases::observe::start_columns;
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group};
 use crate::parameter::ParameterSet;
 use crate::sampled::{Sampled, uncovered};
@@ -16,39 +14,19 @@ const SETTLEMENT: Asked = Asked::series("settlement", "-", "settlement of the to
 const BASE: Asked = Asked::series("base_pressure", "-", "pore pressure at the floor over the load");
 
 pub(in crate::cases) fn foreign() -> Foreign {
+    let of_settlement = [SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, SETTLEMENT_EARLY, SETTLEMENT_END];
+    let groups = vec![
+        Group::new(&[TIME, SETTLEMENT], of_settlement, |given| {
+            Ok(given.setup::<Consolidation>()?.settlement_metrics(&rows(given)))
+        }),
+        Group::new(&[TIME, BASE], [BASE_PRESSURE_ERROR, BASE_PRESSURE_ERROR_STEPS], |given| {
+            Ok(given.setup::<Consolidation>()?.base_pressure_metrics(&rows(given)))
+        }),
+    ];
     Foreign {
         judged_as: |_| Scheme::poro(Gimp, TwoGrid),
-        discretisation: |spec, _, dt| Discretisation {
-            dim: 1,
-            h: spec.level.h,
-            ppc: PER_CELL as u32,
-            dt,
-            wall: "open-knot".to_owned(),
-        },
-        groups: vec![
-            Group {
-                columns: &[TIME, SETTLEMENT],
-                metrics: vec![SETTLEMENT_ERROR, SETTLEMENT_ERROR_STEPS, SETTLEMENT_EARLY, SETTLEMENT_END],
-                measure: |given| Ok(given.setup::<Consolidation>()?.settlement_metrics(&rows(given))),
-            },
-            Group {
-                columns: &[TIME, BASE],
-                metrics: vec![BASE_PRESSURE_ERROR, BASE_PRESSURE_ERROR_STEPS],
-                measure: |given| Ok(given.setup::<Consolidation>()?.base_pressure_metrics(&rows(given))),
-            },
-        ],
         abscissa: Some(TIME),
         gaps,
-        start: |spec, parameters| {
-            let setup = Setup::<Consolidation>::of_spec(spec, parameters)?;
-            Ok(start_columns(setup.begin(&Seen::default())?.particles()))
-        },
-        setup: &[
-            "One dimension, H = 1 m, the floor at x = 0 rigid and sealed, the top drained and loaded. No gravity, no inertia.",
-            "Solid: improved Hencky law, W = G ‖dev h‖² + K v²/(2n), h = ½ ln b, v = ln J, n = 1 − (1 − n₀)/J, with K = 50 kPa, G = 300 kPa, n₀ = 0.5: M₀ = K/n₀ + 4G/3 = 500 kPa.",
-            "Water: Darcy's law by Kozeny–Carman, κ = c n³/(1 − n)², κ₀ = 10⁻⁶/9810 m²/(Pa s) at n₀.",
-            "The load is `load` M₀: from zero at T = 0 in a straight line to its whole at T = 0.05, then constant; the end is T = 2.",
-        ],
         curves: |parameters| {
             let exact = Consolidation::read(parameters).map(|column| solution(column.load, None));
             let exact = exact.unwrap_or_default();
@@ -60,6 +38,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             ];
             vec![("reference-curve.csv", columns)]
         },
+        ..Foreign::of::<1, Setup<Consolidation>>(groups)
     }
 }
 
@@ -87,7 +66,7 @@ fn gaps(given: &Given) -> Gaps {
 
 /// The rows that a code gives; missing values are zero, which no group takes.
 fn rows(given: &Given) -> Vec<At> {
-    let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
-    let row = |(k, t): (usize, &f64)| At { t: *t, settlement: at(&SETTLEMENT, k), base: at(&BASE, k) };
+    let row =
+        |(k, t): (usize, &f64)| At { t: *t, settlement: given.value(&SETTLEMENT, k), base: given.value(&BASE, k) };
     given.column(&TIME).iter().enumerate().map(row).collect()
 }

@@ -6,10 +6,9 @@ mod checks;
 pub(super) mod foreign;
 mod run;
 
-use super::poro::{ROUNDING, spaces};
+use super::poro::{HEIGHT, ROUNDING, column_sketch, spaces};
 use crate::cases::prelude::*;
 use crate::exact::consolidation::{At, solution};
-use run::HEIGHT;
 
 const LEVELS: [(&str, f64); 6] =
     [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0), ("n128", 128.0), ("n256", 256.0)];
@@ -93,14 +92,7 @@ pub(super) fn case() -> Case {
         .quantity(error(SETTLEMENT_ERROR_STEPS, "relative error of the settlement in space"))
         .quantity(error(SETTLEMENT_ERROR, "relative error of the settlement"))
         .watched(&["base_pressure", "settlement"])
-        .sketch(Sketch::of(
-            "A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle.",
-        )
-        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
-        .held([0.0, 0.0], [0.3, 0.0])
-        .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
-        .note([0.15, 1.2], "q, drained")
-        .loads((0..3).map(|k| 0.05 + 0.1 * f64::from(k)), [1.13, 1.02]))
+        .sketch(column_sketch("A column of 1 m on an impermeable floor, under a load q on its drained top that makes it settle."))
         .cost(|spec| 1e-3 * spec.level.h.powi(-1))
         .pictures(pictures)
         .tables(tables())

@@ -1,17 +1,11 @@
 //! Derived quantities, scene and observations of the column.
 
 use super::*;
-use crate::cases::growth;
-use crate::cases::poro::{base_pressure, lost_volume, mass_error, matrix_entries, over_outflow, volumes};
+use crate::cases::poro::*;
 use crate::exact::consolidation::between;
+use crate::statistics::growth;
 use mpm_core::poro::{Face, Settings, Tangent, VolumeRate};
 
-/// Height of the column (m).
-pub(super) const HEIGHT: f64 = 1.0;
-/// Particles a cell.
-pub(super) const PER_CELL: usize = 2;
-/// Empty cells above it.
-const ROOM: usize = 2;
 /// Bulk parameter K, shear modulus G (Pa) and porosity of the undeformed column.
 const BULK: f64 = 50e3;
 const SHEAR: f64 = 300e3;
@@ -42,7 +36,7 @@ impl Setup<Consolidation> {
 
     /// T of the first step, and the ratio of each step to the one before.
     fn first_and_growth(&self) -> (f64, f64) {
-        let whole = growth::factor(FIRST, STEPS, END);
+        let whole = growth(FIRST, STEPS, END);
         let cut = whole.powf(1.0 / f64::from(self.refine));
         (FIRST * (cut - 1.0) / (whole - 1.0), cut)
     }
@@ -119,15 +113,8 @@ impl Problem<1> for Setup<Consolidation> {
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        let h = self.h;
-        let cells = (HEIGHT / h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let spacing = h / PER_CELL as f64;
-        // Nothing moves by its weight: any density will do.
-        let particles = self.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
-        let law = ImprovedHencky::new(BULK, SHEAR, POROSITY)?;
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
-        let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
+        let (h, topmost) = (self.h, topmost(self.h));
+        let scene = column(self, ImprovedHencky::new(BULK, SHEAR, POROSITY)?)?;
         let load = self.whole_load();
         let traction = move |t: f64| [-load * (t / (RAMP * TIME_SCALE)).min(1.0)];
         let (particles, top) = (&scene.body.particles, (0, End::Hi));
@@ -183,12 +170,7 @@ impl Problem<1> for Setup<Consolidation> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
-            .jacobian()
+        kept(columns).jacobian()
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

@@ -1,22 +1,19 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
 use super::probes::Probes;
+use super::run::Membrane;
 use super::run::energy_defect;
 use super::*;
-use crate::cases::observe::{column, discretisation, start_columns};
-use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured, START_X, START_Y};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, KINETIC, MEAN_STRESS, Measured, START_X, START_Y};
+use crate::foreign::{STRESS_WORK, start_columns};
 
 const MOVED_X: Asked = Asked::particle("ux", "m", "displacement along x at rest");
 const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y at rest");
-const MEAN_STRESS: Asked =
-    Asked::particle("mean_stress", "Pa", "mean normal stress at rest, (σ_xx + σ_yy + σ_zz)/3, tension positive");
 const REACTION: Asked = Asked::series(
     "reaction_y",
     "N/m",
     "upward force of the clamp on the membrane, the last row at rest: −1 N/m under the case's own load",
 );
-const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
-const STRESS_WORK: Asked = Asked::series("stress_work", "J/m", "work of the stress so far");
 const LOAD_WORK: Asked = Asked::series("load_work", "J/m", "work of the load so far");
 const LOSSES: Asked = Asked::series("damping_losses", "J/m", "what damping has taken so far");
 
@@ -25,62 +22,34 @@ const LOADING: f64 = 0.25;
 
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    let errors = [FEM_MID_EDGE_ERROR, FEM_EDGE_MEAN_ERROR, FEM_TIP_ERROR];
+    let of_edge = [MID_EDGE_UY, EDGE_MEAN_UY, TIP_UY, TIP_UY_NEAREST, TIP_UX].into_iter().chain(errors);
+    let groups = vec![
+        Group::new(&[START_X, START_Y, MOVED_X, MOVED_Y], of_edge, |given| {
+            let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
+            Ok(probes(given)?.of_displacement(moved, &given.setup::<Cook>()?))
+        }),
+        Group::new(
+            &[START_X, START_Y, MEAN_STRESS],
+            [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses),
+            |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?)),
+        ),
+        Group::new(&[REACTION], [REACTION_UY], |given| {
+            let last = given.column(&REACTION).last();
+            Ok(vec![(REACTION_UY, last.copied().unwrap_or(f64::NAN))])
+        }),
+        Group::new(&[KINETIC, STRESS_WORK, LOAD_WORK, LOSSES], [ENERGY_GAIN], energy_gain),
+    ];
     Foreign {
-        judged_as: |_| Scheme::flip(Bspline2, FbarConsistent),
-        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
-        groups: vec![
-            Group {
-                columns: &[START_X, START_Y, MOVED_X, MOVED_Y],
-                metrics: vec![
-                    MID_EDGE_UY,
-                    EDGE_MEAN_UY,
-                    TIP_UY,
-                    TIP_UY_NEAREST,
-                    TIP_UX,
-                    FEM_MID_EDGE_ERROR,
-                    FEM_EDGE_MEAN_ERROR,
-                    FEM_TIP_ERROR,
-                ],
-                measure: |given| {
-                    let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
-                    Ok(probes(given)?.of_displacement(moved, &given.setup::<Cook>()?))
-                },
-            },
-            Group {
-                columns: &[START_X, START_Y, MEAN_STRESS],
-                metrics: [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses).collect(),
-                measure: |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?)),
-            },
-            Group {
-                columns: &[REACTION],
-                metrics: vec![REACTION_UY],
-                measure: |given| {
-                    let last = given.column(&REACTION).last();
-                    Ok(vec![(REACTION_UY, last.copied().unwrap_or(f64::NAN))])
-                },
-            },
-            Group {
-                columns: &[KINETIC, STRESS_WORK, LOAD_WORK, LOSSES],
-                metrics: vec![ENERGY_GAIN],
-                measure: energy_gain,
-            },
-        ],
-        abscissa: None,
         gaps,
         start: |spec, parameters| {
             let particles = Setup::<Cook>::of_spec(spec, parameters)?.loaded_particles()?;
             let mut columns = start_columns(&particles);
             let load = particles.seeded(|k| particles.external_force[k][1]);
-            columns.push(column("load_y", "N/m", load));
+            columns.push(crate::job::Column { name: "load_y", unit: "N/m", values: load });
             Ok(columns)
         },
-        setup: &[
-            "Plane strain. Corners (0, 0), (48, 44), (48, 60), (0, 44) m; the side x = 0 is clamped.",
-            "Neo-Hookean rubber, W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 ln² J, with `young_modulus`, `poisson_ratio` and `density`.",
-            "Dead load `load` (N/m) upward on the right side, to full and constant; `load_y` is every particle's share of it.",
-            "No gravity. Damp as you like: the state of rest is judged.",
-        ],
-        curves: |_| Vec::new(),
+        ..Foreign::of::<2, Membrane>(groups)
     }
 }
 

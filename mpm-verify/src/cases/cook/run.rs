@@ -3,8 +3,8 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{checkerboard, displacement, mean_stress};
-use crate::statistics::Line;
+use crate::cases::observe::{displacement, mean_stress};
+use crate::statistics::{Line, checkerboard};
 use mpm_core::implicit::Settings;
 use mpm_core::stage::{DeadForce, KineticDamping, Load, Observation, RestCriterion};
 use mpm_core::{Memory, Saved};

@@ -4,16 +4,14 @@ use super::*;
 use crate::exact::dam_break::{COMPARED, energies, front, passage, time_scale};
 
 /// The state behind the gate, just before it is removed.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Start {
     /// Forces (N/m) on the floor, downward, and on gate and back wall, outward.
     pub(super) base_reaction: f64,
     pub(super) gate_force: f64,
     pub(super) back_force: f64,
-    /// Pressure (Pa) at the floor.
-    pub(super) base_pressure: f64,
-    /// Rms over the particles of the pressure less the hydrostatic one, over that at the floor.
-    pub(super) profile_error: f64,
+    /// Pressure (Pa) of every particle in seeding order.
+    pub(super) pressures: Vec<f64>,
     /// Kinetic energy (J/m).
     pub(super) kinetic_energy: f64,
 }
@@ -24,8 +22,6 @@ impl Start {
             (BASE_REACTION_RATIO, self.base_reaction / weight),
             (GATE_FORCE, self.gate_force),
             (BACK_FORCE, self.back_force),
-            (BASE_PRESSURE, self.base_pressure),
-            (PRESSURE_PROFILE_ERROR, self.profile_error),
             (START_KINETIC_ENERGY, self.kinetic_energy),
         ]
     }

@@ -3,25 +3,20 @@
 use super::flow::{Flow, State};
 use super::run::Dam;
 use super::*;
-use crate::cases::observe::{column, start_columns};
 use crate::exact::dam_break::{COMPARED, front_curve, passage, time_scale};
-use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, Measured};
+use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, KINETIC, Measured, POTENTIAL, START_Y, STRESS_WORK};
 use crate::sampled::Sampled;
 
 const TIME: Asked = Asked::series("time", "s", "time since the gate was removed, a row every 0.005 s");
 const FRONT: Asked = Asked::series("front", "m", "x of the outermost particle and half its spacing");
-const KINETIC: Asked = Asked::series("kinetic_energy", "J/m", "kinetic energy");
-const POTENTIAL: Asked = Asked::series("potential_energy", "J/m", "Σ m g y, zero at the floor");
-const STRESS_WORK: Asked = Asked::series(
-    "stress_work",
-    "J/m",
-    "work that the stress has done on the water since the start: what it stores and loses",
-);
 const COVERED: Asked = Asked::series(
     "covered",
     "m²",
     "area under the highest particles, in strips two particles wide, with half a spacing on top",
 );
+
+const START_PRESSURE: Asked =
+    Asked::particle("start_pressure", "Pa", "pressure behind the gate just before it is gone: one step from start.csv");
 
 /// Time (s) at which the area is measured.
 const EARLY: f64 = 0.4;
@@ -31,61 +26,40 @@ const MOVING: f64 = 0.05;
 const INTERVALS: f64 = 5.0;
 
 pub(in crate::cases) fn foreign() -> Foreign {
+    let front = [FRONT_X_EARLY, FRONT_RMS_ERROR, FRONT_SPEED_MAX, ARRIVAL_TIME, ARRIVAL_ERROR];
+    let energy = [ENERGY_RATIO, ENERGY_RATIO_2S, ENERGY_EXCESS];
+    let groups = vec![
+        Group::new(&[TIME, FRONT], front, of_flow),
+        Group::new(&[TIME, KINETIC, POTENTIAL], [MOTION_RATIO_2S, MOTION_EXCESS, MOTION_LOSS], of_flow),
+        Group::new(&[TIME, KINETIC, POTENTIAL, STRESS_WORK], energy, of_flow),
+        Group::new(&[TIME, COVERED], [COVERED_EARLY], of_flow),
+        Group::new(&[START_Y, START_PRESSURE], [PRESSURE_PROFILE_ERROR, BASE_PRESSURE], |given| {
+            let dam = Dam::new(given.setup()?)?;
+            let [heights, pressures] = [&START_Y, &START_PRESSURE].map(|asked| given.column(asked));
+            Ok(dam.pressure_metrics(heights, pressures))
+        }),
+    ];
     Foreign {
-        judged_as: |_| Scheme::flip(Bspline2, FbarConsistent),
-        discretisation: |spec, parameters, dt| crate::cases::observe::discretisation(2, spec, parameters, dt),
-        groups: vec![
-            Group {
-                columns: &[TIME, FRONT],
-                metrics: vec![FRONT_X_EARLY, FRONT_RMS_ERROR, FRONT_SPEED_MAX, ARRIVAL_TIME, ARRIVAL_ERROR],
-                measure: of_flow,
-            },
-            Group {
-                columns: &[TIME, KINETIC, POTENTIAL],
-                metrics: vec![MOTION_RATIO_2S, MOTION_EXCESS, MOTION_LOSS],
-                measure: of_flow,
-            },
-            Group {
-                columns: &[TIME, KINETIC, POTENTIAL, STRESS_WORK],
-                metrics: vec![ENERGY_RATIO, ENERGY_RATIO_2S, ENERGY_EXCESS],
-                measure: of_flow,
-            },
-            Group { columns: &[TIME, COVERED], metrics: vec![COVERED_EARLY], measure: of_flow },
-        ],
         abscissa: Some(TIME),
         gaps,
-        start: |spec, parameters| {
-            let run = Dam::new(Setup::of_spec(spec, parameters)?)?.released()?;
-            let p = run.particles();
-            let mut columns = start_columns(p);
-            columns.push(column("jacobian", "-", p.seeded(|k| p.jacobian[k])));
-            Ok(columns)
-        },
-        setup: &[
-            "Plane strain. Water fills 0 ≤ x ≤ 4 m, 0 ≤ y ≤ 2 m of a tank from x = 0 to 6 m, open above; g = 9.81 m/s².",
-            "Pressure `bulk_modulus` (1 − J); Newtonian with `viscosity`; `density` is that without pressure.",
-            "At t = 0 the gate at x = 4 m is gone and the water at rest, compressed by its own weight: y and `jacobian` of start.csv say how.",
-            "Water slides freely along floor and walls; if `wall_contact` is separable, it comes off them as freely.",
-            "The series ends at `duration` or later.",
-        ],
         curves: |_| {
             let (time, front) = front_curve().into_iter().unzip();
             let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
             vec![("reference-front.csv", columns)]
         },
+        ..Foreign::of::<2, Dam>(groups)
     }
 }
 
 /// Metrics of a flow; missing columns are zeros, whose metrics no group takes.
 fn of_flow(given: &Given) -> Measured {
-    let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
     let row = |k: usize| State {
-        time: at(&TIME, k),
-        front: at(&FRONT, k),
-        kinetic: at(&KINETIC, k),
-        potential: at(&POTENTIAL, k),
-        stress_work: at(&STRESS_WORK, k),
-        covered: at(&COVERED, k),
+        time: given.value(&TIME, k),
+        front: given.value(&FRONT, k),
+        kinetic: given.value(&KINETIC, k),
+        potential: given.value(&POTENTIAL, k),
+        stress_work: given.value(&STRESS_WORK, k),
+        covered: given.value(&COVERED, k),
         ..State::default()
     };
     let rows = (0..given.column(&TIME).len()).map(row).collect();

@@ -2,8 +2,8 @@
 
 use super::flow::{Flow, Start, State};
 use super::*;
-use crate::cases::observe::checkerboard;
 use crate::exact::hydrostatic::Hydrostatic;
+use crate::statistics::checkerboard;
 use mpm_core::explicit::Settings;
 use mpm_core::stage::{LocalDamping, RigidNodes, smooth_rise};
 use mpm_solvers::solver;
@@ -177,21 +177,21 @@ impl Dam {
         let steps = (PERIODS * self.period() / self.dt).round() as u64;
         let before = impulses(&*phase.run);
         phase.steps(1)?;
-        self.measure_pressure(start, &mut *phase.run);
+        start.pressures = seeded_pressures(&mut *phase.run);
         phase.steps(steps.saturating_sub(1))?;
         measure_forces(start, &*phase.run, &before, steps as f64 * self.dt);
         phase.enter(self.released()?, None)
     }
 
-    /// The pressure behind the gate.
-    fn measure_pressure(&self, start: &mut Start, run: &mut dyn Simulation<2>) {
-        let pressures = pressures(run, Field::MeanStress);
-        let of_depth = || run.particles().reference.iter().zip(&pressures);
-        let off = of_depth().map(|(x, pressure)| pressure - self.water.pressure(x[1]));
-        start.profile_error = rms(off) / self.water.pressure(0.0);
-        let lower: Vec<(f64, f64)> =
-            of_depth().filter(|(x, _)| x[1] < 0.5 * DEPTH).map(|(x, pressure)| (x[1], *pressure)).collect();
-        start.base_pressure = fit_line(&lower).map_or(f64::NAN, |line| line.intercept);
+    /// Metrics of pressures (Pa) at these heights (m, before anything moves) behind the gate.
+    pub(super) fn pressure_metrics(&self, heights: &[f64], pressures: &[f64]) -> Vec<(Metric, f64)> {
+        let of_height = || heights.iter().copied().zip(pressures.iter().copied());
+        let off = of_height().map(|(y, pressure)| pressure - self.water.pressure(y));
+        let lower: Vec<(f64, f64)> = of_height().filter(|(y, _)| *y < 0.5 * DEPTH).collect();
+        vec![
+            (PRESSURE_PROFILE_ERROR, rms(off) / self.water.pressure(0.0)),
+            (BASE_PRESSURE, fit_line(&lower).map_or(f64::NAN, |line| line.intercept)),
+        ]
     }
 
     /// The current state; `before` are the impulses of the row before.
@@ -290,7 +290,7 @@ impl Problem<2> for Dam {
         row.time -= STAGE;
         seen.held += 1;
         if seen.held == self.stage_rows() {
-            self.measure_pressure(&mut seen.start, &mut *phase.run);
+            seen.start.pressures = seeded_pressures(&mut *phase.run);
             measure_forces(&mut seen.start, &*phase.run, &before, ROW);
             let body = phase.run.body()?;
             phase.enter(self.released()?, Some(&body))?;
@@ -317,11 +317,14 @@ impl Problem<2> for Dam {
         Some(Snapshot { time, columns })
     }
 
-    fn particles<'a>(&self, _: &Observed, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
+    fn particles<'a>(&self, seen: &Observed, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
         let averaged = pressures(columns.run(), Field::AveragedMeanStress);
         let pressures = pressures(columns.run(), Field::MeanStress);
+        let at_start = |id: u32| seen.start.pressures.get(id as usize).copied().unwrap_or(f64::NAN);
         columns
+            .references()
             .velocities()
+            .each("start_pressure", "Pa", |p, k| at_start(p.id[k]))
             .each("pressure", "Pa", |_, k| pressures[k])
             .each("averaged_pressure", "Pa", |_, k| averaged[k])
             .jacobian()
@@ -332,6 +335,8 @@ impl Problem<2> for Dam {
         let weight = density * GRAVITY * LENGTH * DEPTH;
         let mut values = seen.start.metrics(weight);
         values.extend(seen.flow.metrics(density, self.setup.h));
+        let p = phase.run.particles();
+        values.extend(self.pressure_metrics(&p.seeded(|k| p.reference[k][1]), &seen.start.pressures));
         values.push((MASS, phase.run.totals().mass));
         values
     }
@@ -340,6 +345,12 @@ impl Problem<2> for Dam {
 /// Pressure (Pa), or its average, as it enters the forces, in the particles' order.
 fn pressures(run: &mut dyn Simulation<2>, mean_stress: Field) -> Vec<f64> {
     run.field(mean_stress).into_iter().map(|s| -s).collect()
+}
+
+/// Pressure (Pa) in seeding order.
+fn seeded_pressures(run: &mut dyn Simulation<2>) -> Vec<f64> {
+    let pressures = pressures(run, Field::MeanStress);
+    run.particles().seeded(|k| pressures[k])
 }
 
 fn impulses(run: &dyn Simulation<2>) -> Impulses {

@@ -3,14 +3,11 @@
 use super::curve::{Load, LoadCurve, WINDOW, bearing_factor, plateau};
 use super::reference::limit_curve;
 use super::*;
-use crate::cases::observe::{discretisation, start_columns};
-use crate::foreign::{Asked, Foreign, Gaps, Given, Group, Measured, START_X, START_Y};
+use crate::foreign::{Asked, Foreign, Gaps, Given, Group, MEAN_STRESS, Measured, START_X, START_Y};
 use crate::sampled::SHORT;
 
 const FLOW_X: Asked = Asked::particle("plateau_ux", "m", "displacement along x in the last quarter of penetration");
 const FLOW_Y: Asked = Asked::particle("plateau_uy", "m", "displacement along y in the last quarter of penetration");
-const MEAN_STRESS: Asked =
-    Asked::particle("mean_stress", "Pa", "mean normal stress at the end, (σ_xx + σ_yy + σ_zz)/3, tension positive");
 const PENETRATED: Asked = Asked::series("penetration", "-", "penetration over B");
 const FORCE: Asked =
     Asked::series("footing_force", "N/m", "upward force of the ground on the half of the footing that is simulated");
@@ -20,62 +17,41 @@ pub(in crate::cases) fn foreign() -> Foreign {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
     let of_load = [NC_B, NC_B_PLUS_H, NC_EFFECTIVE, PRANDTL_ERROR, NC_PEAK, PLATEAU_RISE, ELASTIC_SLOPE];
+    let groups = vec![
+        Group::new(&[PENETRATED, FORCE], of_load.into_iter().chain(curve), |given| of_rows(given, |c| c.metrics())),
+        Group::new(&[PENETRATED, FORCE, BASE], [FORCE_IMBALANCE], |given| {
+            of_rows(given, |c| vec![(FORCE_IMBALANCE, c.imbalance())])
+        }),
+        Group::new(&[START_X, START_Y, FLOW_X, FLOW_Y], [MECHANISM_WIDTH, HEAVE], |given| {
+            let [start, flow] = [[&START_X, &START_Y], [&FLOW_X, &FLOW_Y]].map(|columns| given.points(columns));
+            Ok(given.setup::<Footing>()?.of_surface(&start, &flow))
+        }),
+        Group::new(
+            &[START_X, START_Y, MEAN_STRESS],
+            [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(stresses),
+            |given| {
+                let start = given.points([&START_X, &START_Y]);
+                Ok(given.setup::<Footing>()?.of_stress(&start, given.column(&MEAN_STRESS)))
+            },
+        ),
+    ];
     Foreign {
         judged_as: |basis| Scheme::flip(basis, FbarConsistent),
-        discretisation: |spec, parameters, dt| discretisation(2, spec, parameters, dt),
-        groups: vec![
-            Group {
-                columns: &[PENETRATED, FORCE],
-                metrics: of_load.into_iter().chain(curve).collect(),
-                measure: |given| of_rows(given, |c| c.metrics()),
-            },
-            Group {
-                columns: &[PENETRATED, FORCE, BASE],
-                metrics: vec![FORCE_IMBALANCE],
-                measure: |given| of_rows(given, |c| vec![(FORCE_IMBALANCE, c.imbalance())]),
-            },
-            Group {
-                columns: &[START_X, START_Y, FLOW_X, FLOW_Y],
-                metrics: vec![MECHANISM_WIDTH, HEAVE],
-                measure: |given| {
-                    let [start, flow] = [[&START_X, &START_Y], [&FLOW_X, &FLOW_Y]].map(|columns| given.points(columns));
-                    Ok(given.setup::<Footing>()?.of_surface(&start, &flow))
-                },
-            },
-            Group {
-                columns: &[START_X, START_Y, MEAN_STRESS],
-                metrics: [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(stresses).collect(),
-                measure: |given| {
-                    let start = given.points([&START_X, &START_Y]);
-                    Ok(given.setup::<Footing>()?.of_stress(&start, given.column(&MEAN_STRESS)))
-                },
-            },
-        ],
         abscissa: Some(PENETRATED),
         gaps,
-        start: |spec, parameters| {
-            let pressing = Pressing::new(Setup::of_spec(spec, parameters)?)?;
-            Ok(start_columns(pressing.begin(&pressing.unseen())?.particles()))
-        },
-        setup: &[
-            "Plane strain, right half: 0 ≤ x ≤ `domain_width` B, −`domain_depth` B ≤ y ≤ 0, B = 1 m. Base fixed, rollers at both sides.",
-            "Hencky elasticity (W = μ ‖h‖² + λ/2 (tr h)², h = ½ ln b) with `young_modulus`, `poisson_ratio`; perfectly plastic at ‖s‖ = √2 `undrained_strength`. No gravity.",
-            "A rigid footing on 0 ≤ x ≤ B/2, y = 0 goes down by `penetration` B; the ground sticks to it if `rough`.",
-            "Slowly: the force on the base is to be that on the footing. Rows of the series 10⁻⁵ apart in penetration, or closer.",
-            "`basis` of score.json says how wide the footing acts: B with `bspline2` and for any code whose footing ends at B/2, B + h with `linear` and `gimp`, whose last held node stands on B/2, B + h/2 with `bspline3`.",
-        ],
         curves: |_| {
             let (settlement, pressure) = limit_curve().into_iter().unzip();
             let columns = [(PENETRATED.header(), settlement), ("pressure_over_strength (-)".to_owned(), pressure)];
             vec![("reference-curve.csv", columns.into())]
         },
+        ..Foreign::of::<2, Pressing>(groups)
     }
 }
 
 /// Metrics of the load that a code supplies; missing columns are zeros, whose metrics no group takes.
 fn of_rows(given: &Given, of: fn(&LoadCurve<'_>) -> Vec<(Metric, f64)>) -> Measured {
-    let at = |asked: &Asked, k: usize| given.column(asked).get(k).copied().unwrap_or_default();
-    let row = |k| Load { penetration: at(&PENETRATED, k), force: at(&FORCE, k), base: at(&BASE, k) };
+    let [penetration, force, base] = [&PENETRATED, &FORCE, &BASE].map(|asked| move |k| given.value(asked, k));
+    let row = |k| Load { penetration: penetration(k), force: force(k), base: base(k) };
     let setup = given.setup::<Footing>()?;
     let is_asked = |row: &Load| row.penetration <= setup.penetration * (1.0 + SHORT);
     let rows: Vec<Load> = (0..given.column(&PENETRATED).len()).map(row).filter(is_asked).collect();

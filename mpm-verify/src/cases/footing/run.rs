@@ -3,7 +3,8 @@
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::reference::EXACT;
 use super::*;
-use crate::cases::observe::{checkerboard, mean_stress, oscillation};
+use crate::cases::observe::mean_stress;
+use crate::statistics::{checkerboard, oscillation};
 use mpm_core::stage::{RigidNodes, smooth_stroke};
 
 /// Width B of the footing (m); its right half is simulated.

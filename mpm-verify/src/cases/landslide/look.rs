@@ -212,6 +212,7 @@ impl Series {
             (RUNOUT_END, end(&runout)),
             (BULK_RUNOUT_2_5S, at(2.5, &bulk)),
             (BULK_RUNOUT_END, end(&bulk)),
+            (SETTLEMENT_AT_REST, start.settlement),
             (SETTLEMENT_2_5S, at(2.5, &|row| row.settlement)),
             (SETTLEMENT_END, end(&|row| row.settlement)),
             (FAILED_SHARE_2_5S, at(2.5, &|row| row.failed)),

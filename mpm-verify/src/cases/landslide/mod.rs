@@ -4,6 +4,7 @@
 
 mod checks;
 mod figures;
+pub(super) mod foreign;
 mod look;
 mod plane_strain;
 mod run;

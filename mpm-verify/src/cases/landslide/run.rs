@@ -2,9 +2,9 @@
 
 use super::look::{Look, Series, State, potential, spread_over_width};
 use super::*;
-use crate::cases::observe::checkerboard;
 use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
+use crate::statistics::checkerboard;
 
 /// Width (m) in full, and cells across a slice.
 const FULL: f64 = 5.0;
@@ -26,8 +26,6 @@ struct AtRest {
     state: State,
     /// Nodal kinetic energy over stored energy.
     kinetic_share: f64,
-    /// Rms error of the vertical stress far from the face, over γ H.
-    overburden_error: f64,
     /// Rms of σ_m − Πσ_m over γ H.
     checkerboard: f64,
     /// Share of the section that has yielded.
@@ -56,8 +54,9 @@ pub(super) struct Seen {
     reduction: Option<f64>,
     before: Before,
     at_rest: AtRest,
-    /// Places (m) in the section when the strength is reduced, in seeding order.
+    /// Places (m) in the section and vertical stresses (Pa) when the strength is reduced, in seeding order.
     released: Vec<[f64; 2]>,
+    stress: Vec<f64>,
     pub(super) series: Series,
     early_spread: f64,
     /// Rms of σ_m − Πσ_m over γ H in the flow.
@@ -211,19 +210,27 @@ impl<const D: usize> Slide<D> {
         checkerboard(&mean, &averaged) / self.ground.overburden()
     }
 
+    /// Rms over the particles far from the face of the vertical stress (Pa) less the weight above, over γ H; by where they
+    /// start (m).
+    pub(super) fn overburden_error(&self, references: &[[f64; 2]], stress: &[f64]) -> f64 {
+        let (weight, height) = (self.ground.slope.density * GRAVITY, self.ground.slope.section.height);
+        let far = references.iter().zip(stress).filter(|(x, _)| x[0] < FAR * height);
+        rms(far.map(|(x, stress)| stress + weight * (height - x[1]))) / self.ground.overburden()
+    }
+
+    /// Force on the base over the weight of the ground, whose mass is `mass` (kg).
+    pub(super) fn base_reaction(&self, rest: &State, mass: f64) -> (Metric, f64) {
+        (BASE_REACTION_RATIO, rest.base_force / (mass * GRAVITY / self.ground.width))
+    }
+
     fn measure_rest(&self, seen: &mut Seen, run: &mut dyn Simulation<D>) {
-        let weight = self.ground.slope.density * GRAVITY;
-        let (section, stress) = (self.ground.slope.section, run.force_stress());
-        let p = run.particles();
-        let far = |k: &usize| p.reference[*k][0] < FAR * section.height;
-        let error = |k: usize| stress[k].get(1, 1) + weight * (section.height - p.reference[k][1]);
-        let overburden_error = rms((0..p.len()).filter(far).map(error)) / self.ground.overburden();
+        let stress = run.force_stress();
+        seen.stress = run.particles().seeded(|k| stress[k].get(1, 1));
         let strain = plastic_strain(run);
         let yielded = strain.iter().filter(|e| **e > 0.0).count();
         seen.at_rest = AtRest {
             state: seen.at_rest.state,
             kinetic_share: run.residual().kinetic_energy / run.totals().stored_energy,
-            overburden_error,
             checkerboard: self.checkerboard(run),
             yielded: yielded as f64 / strain.len() as f64,
             width_spread: spread_over_width(&moved(run), self.ground.across),
@@ -358,14 +365,14 @@ where
         kept.then(|| Snapshot { time, columns: fields(Columns::positions(phase.run.as_mut())).done() })
     }
 
-    fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
-        fields(columns).references().jacobian()
+    fn particles<'a>(&self, seen: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
+        let at_rest = |id: u32| seen.stress.get(id as usize).copied().unwrap_or(f64::NAN);
+        fields(columns).references().jacobian().each("rest_stress_yy", "Pa", |p, k| at_rest(p.id[k]))
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_mut();
         let (rest, totals) = (&seen.at_rest, run.totals());
-        let weight = totals.mass * GRAVITY / self.ground.width;
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let bands = self.look(&positions, &plastic_strain).bands();
         let mut values = seen.series.metrics(&self.ground.slope.section, &rest.state);
@@ -375,13 +382,12 @@ where
             (PARTICLES, self.reference.len() as f64),
             (PARTICLES_ACROSS, self.ground.across as f64),
             (MASS, totals.mass / self.ground.width),
-            (BASE_REACTION_RATIO, rest.state.base_force / weight),
+            self.base_reaction(&rest.state, totals.mass),
             (KINETIC_SHARE_AT_REST, rest.kinetic_share),
-            (OVERBURDEN_ERROR, rest.overburden_error),
+            (OVERBURDEN_ERROR, self.overburden_error(&self.reference, &seen.stress)),
             (CHECKERBOARD_AT_REST, rest.checkerboard),
             (CHECKERBOARD_2_5S, seen.checkerboard),
             (YIELDED_AT_REST, rest.yielded),
-            (SETTLEMENT_AT_REST, rest.state.settlement),
         ]);
         if D == 3 {
             let end = spread_over_width(&moved(run), self.ground.across);

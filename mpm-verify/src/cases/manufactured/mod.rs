@@ -4,6 +4,7 @@
 
 pub(super) mod checks;
 pub(super) mod errors;
+pub(super) mod foreign;
 mod metrics;
 mod motion;
 mod pictures;

@@ -17,7 +17,7 @@ const SCALE_TIMES: u32 = 20;
 /// A motion beside its exact solution.
 pub(in crate::cases) struct Motion<const D: usize, K> {
     scenario: Scenario<K>,
-    timing: Timing,
+    pub(super) timing: Timing,
     steps_per_row: u64,
     /// Angular frequency (rad/s) of a solution that is one standing wave.
     frequency: Option<f64>,
@@ -27,35 +27,76 @@ pub(in crate::cases) struct Motion<const D: usize, K> {
 #[derive(Default, Serialize, Deserialize)]
 pub(in crate::cases) struct Seen {
     /// Means of J̄ and J over each cell at the start, of a body that is to stay at rest.
-    at_start: Option<Vec<[f64; 2]>>,
+    at_start: Option<[Vec<f64>; 2]>,
     rows: Vec<Sample>,
 }
 
 /// Values of a row of the series that metrics need.
 #[derive(Clone, Copy, Serialize, Deserialize)]
-struct Sample {
-    time: f64,
-    kinetic: f64,
+pub(super) struct Sample {
+    pub(super) time: f64,
+    pub(super) kinetic: f64,
     /// Kinetic + stored energy − work of the loads.
-    energy: f64,
+    pub(super) energy: f64,
     /// Displacement in the shape of the standing wave, relative to its amplitude.
-    mode: f64,
+    pub(super) mode: f64,
+}
+
+/// The largest kinetic energy.
+fn peak(rows: &[Sample]) -> f64 {
+    rows.iter().map(|r| r.kinetic).fold(0.0, f64::max)
+}
+
+/// An energy over the largest kinetic one. Where nothing moves nothing is gained.
+fn share(gain: f64, peak: f64) -> f64 {
+    if gain == 0.0 { 0.0 } else { gain / peak }
+}
+
+/// Metrics of the energies of rows, the first of which is the start.
+pub(super) fn of_energies(rows: &[Sample]) -> Vec<(Metric, f64)> {
+    let (start, peak) = (rows.first().map_or(f64::NAN, |r| r.energy), peak(rows));
+    let gains = || rows.iter().map(|r| share(r.energy - start, peak));
+    vec![
+        (ENERGY_GAIN, gains().fold(0.0, f64::max)),
+        (ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
+        (ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
+        (KINETIC_ENERGY_PEAK, peak),
+    ]
+}
+
+/// Growth of the kinetic energy from the middle third of the rows to the last.
+pub(super) fn growth(rows: &[Sample]) -> (Metric, f64) {
+    let third = rows.len() / 3;
+    let (earlier, last) = rows.split_at(rows.len() - third);
+    (KINETIC_GROWTH, peak(last) / peak(&earlier[earlier.len() - third..]))
+}
+
+/// Largest change of a cell's mean per 10⁵ steps.
+pub(super) fn drift(before: &[f64], now: &[f64], steps: f64) -> f64 {
+    let moved = before.iter().zip(now).map(|(before, now)| (now - before).abs());
+    moved.fold(0.0, f64::max) * (1e5 / steps)
 }
 
 impl<const D: usize, K: Known> Motion<D, K> {
-    /// Means of J̄ and J over each cell, by the particles' reference positions.
-    fn cell_means(&self, run: &dyn Simulation<D>) -> Vec<[f64; 2]> {
-        let (p, h) = (run.particles(), self.scenario.setup.h);
-        let extent = self.scenario.solution.extent();
-        let mut sums: BTreeMap<Vec<usize>, ([f64; 2], f64)> = BTreeMap::new();
-        for k in 0..p.len() {
-            let cell = |a: usize| ((p.reference[k][a] - extent[a][0]) / h) as usize;
+    /// Means over each cell of a value of particles that start at `references` (m).
+    pub(super) fn cell_means(&self, references: &[[f64; D]], values: &[f64]) -> Vec<f64> {
+        let (h, extent) = (self.scenario.setup.h, self.scenario.solution.extent());
+        let mut sums: BTreeMap<Vec<usize>, (f64, f64)> = BTreeMap::new();
+        for (x, value) in references.iter().zip(values) {
+            let cell = |a: usize| ((x[a] - extent[a][0]) / h) as usize;
             let (sum, count) = sums.entry((0..D).map(cell).collect()).or_default();
-            sum[0] += p.j_bar.get(k).unwrap_or(&p.jacobian[k]);
-            sum[1] += p.jacobian[k];
+            *sum += value;
             *count += 1.0;
         }
-        sums.values().map(|(s, n)| s.map(|s| s / n)).collect()
+        sums.values().map(|(sum, count)| sum / count).collect()
+    }
+
+    /// Means of J̄ and J over each cell.
+    fn volumes(&self, run: &dyn Simulation<D>) -> [Vec<f64>; 2] {
+        let p = run.particles();
+        let references: Vec<[f64; D]> = p.seeded(|k| k).into_iter().map(|k| p.reference[k]).collect();
+        let averaged = p.seeded(|k| *p.j_bar.get(k).unwrap_or(&p.jacobian[k]));
+        [averaged, p.seeded(|k| p.jacobian[k])].map(|values| self.cell_means(&references, &values))
     }
 
     /// The share of the displacement since the start that has the shape of the standing wave.
@@ -76,15 +117,19 @@ impl<const D: usize, K: Known> Motion<D, K> {
         along / squares
     }
 
-    fn observe(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Row {
+    pub(super) fn sample(&self, run: &dyn Simulation<D>) -> Sample {
         let totals = run.totals();
-        let work = totals.accumulated;
-        let sample = Sample {
+        Sample {
             time: run.time(),
             kinetic: totals.kinetic_energy,
-            energy: totals.kinetic_energy + totals.stored_energy - work.load_work,
+            energy: totals.kinetic_energy + totals.stored_energy - totals.accumulated.load_work,
             mode: self.mode(run),
-        };
+        }
+    }
+
+    fn observe(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Row {
+        let (sample, totals) = (self.sample(run), run.totals());
+        let work = totals.accumulated;
         seen.rows.push(sample);
         let errors = errors::of_displacements(self.scenario.solution.as_ref(), run);
         let mut row = row! {
@@ -138,10 +183,11 @@ impl<const D: usize, K: Known> Motion<D, K> {
         (errors, projections.map(|(along, squares)| along / squares))
     }
 
-    /// Frequency over the exact one from the zeros of the mode, and its amplitude in the last period over that in the first.
-    fn vibration(&self, seen: &Seen, end: f64) -> Option<[f64; 2]> {
-        let omega = self.frequency?;
-        let zeros = seen.rows.windows(2).filter_map(|pair| {
+    /// Metrics of a standing wave: frequency over the exact one from the zeros of the mode, and its amplitude in the last period
+    /// over that in the first.
+    pub(super) fn vibration(&self, rows: &[Sample]) -> Option<[(Metric, f64); 4]> {
+        let (omega, end) = (self.frequency?, rows.last()?.time);
+        let zeros = rows.windows(2).filter_map(|pair| {
             let ([a, b], crosses) = ([pair[0], pair[1]], pair[0].mode * pair[1].mode < 0.0);
             crosses.then(|| a.time + (b.time - a.time) * a.mode / (a.mode - b.mode))
         });
@@ -149,40 +195,39 @@ impl<const D: usize, K: Known> Motion<D, K> {
         let half_period = fit_line(&zeros)?.slope;
         let period = TAU / omega;
         let largest = |from: f64, to: f64| {
-            let inside = seen.rows.iter().filter(|r| (from..=to).contains(&r.time));
+            let inside = rows.iter().filter(|r| (from..=to).contains(&r.time));
             inside.map(|r| r.mode.abs()).fold(0.0, f64::max)
         };
-        Some([PI / half_period / omega, largest(end - period, end) / largest(0.0, period)])
+        let (frequency, amplitude) = (PI / half_period / omega, largest(end - period, end) / largest(0.0, period));
+        Some([
+            (FREQUENCY_RATIO, frequency),
+            (FREQUENCY_ERROR, (frequency - 1.0).abs()),
+            (AMPLITUDE_RATIO, amplitude),
+            (DAMPING, -amplitude.ln()),
+        ])
     }
 
-    /// Metrics of a body at rest: drifts of the cells' means, growth of the kinetic energy, and the pressure at the base.
+    /// Pressure (Pa) at the base, by particles that start at these heights (m) and their mean stress (Pa).
+    pub(super) fn base_pressure(&self, heights: &[f64], mean_stress: &[f64]) -> f64 {
+        let [lo, hi] = self.scenario.solution.extent()[D - 1];
+        let lower = heights.iter().zip(mean_stress).filter(|(y, _)| **y < 0.5 * (lo + hi));
+        let profile: Vec<(f64, f64)> = lower.map(|(y, mean)| (y - lo, -mean)).collect();
+        fit_line(&profile).map_or(f64::NAN, |line| line.intercept)
+    }
+
+    /// Metrics of a body at rest: drifts of the cells' means, and the pressure at the base.
     fn rest(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Vec<(Metric, f64)> {
-        let Some(start) = &seen.at_start else {
+        let Some([averaged, own]) = &seen.at_start else {
             return Vec::new();
         };
-        let per = 1e5 / self.timing.steps;
-        let now = self.cell_means(run);
-        let drift = |which: usize| {
-            let pairs = start.iter().zip(&now);
-            let moved = pairs.map(|(a, b)| (b[which] - a[which]).abs());
-            moved.fold(0.0, f64::max) * per
-        };
-        let third = seen.rows.len() / 3;
-        let peak = |rows: &[Sample]| rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
-        let (earlier, last) = seen.rows.split_at(seen.rows.len() - third);
-        let growth = peak(last) / peak(&earlier[earlier.len() - third..]);
-        let stress = run.force_stress();
-        let height = self.scenario.solution.extent()[D - 1];
-        let below = |y: f64| y < 0.5 * (height[0] + height[1]);
-        let lower = run.particles().reference.iter().zip(&stress);
-        let profile: Vec<(f64, f64)> =
-            lower.filter(|(x, _)| below(x[D - 1])).map(|(x, s)| (x[D - 1] - height[0], -s.mean())).collect();
-        let base = fit_line(&profile).map_or(f64::NAN, |line| line.intercept);
+        let (now, stress) = (self.volumes(run), run.force_stress());
+        let p = run.particles();
+        let [heights, mean] = [p.seeded(|k| p.reference[k][D - 1]), p.seeded(|k| stress[k].mean())];
         vec![
-            (J_DRIFT_PER_1E5_STEPS, drift(0)),
-            (TRUE_J_DRIFT_PER_1E5_STEPS, drift(1)),
-            (KINETIC_GROWTH, growth),
-            (BASE_PRESSURE, base),
+            (J_DRIFT_PER_1E5_STEPS, drift(averaged, &now[0], self.timing.steps)),
+            (TRUE_J_DRIFT_PER_1E5_STEPS, drift(own, &now[1], self.timing.steps)),
+            (BASE_PRESSURE, self.base_pressure(&heights, &mean)),
+            growth(&seen.rows),
         ]
     }
 }
@@ -220,7 +265,7 @@ where
     fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
         if seen.rows.is_empty() {
             let start = phase.run.as_ref();
-            seen.at_start = K::RESTS.then(|| self.cell_means(start));
+            seen.at_start = K::RESTS.then(|| self.volumes(start));
             self.observe(seen, start);
         }
         let left = self.timing.steps as u64 - phase.run.work().steps;
@@ -255,23 +300,15 @@ where
         let displacement = errors::of_displacements(solution, run);
         let (velocity, [displacement_ratio, velocity_ratio]) = self.velocities(run);
         let totals = run.totals();
-        let peak = seen.rows.iter().map(|r| r.kinetic).fold(0.0, f64::max);
-        let start = seen.rows.first().map_or(f64::NAN, |r| r.energy);
-        // Where nothing moves nothing is gained.
-        let share = |gain: f64| if gain == 0.0 { 0.0 } else { gain / peak };
-        let gains = || seen.rows.iter().map(|r| share(r.energy - start));
-        let mut values = vec![
+        let mut values = of_energies(&seen.rows);
+        values.extend([
             (DISPLACEMENT_SCALE, self.displacement_scale(run)),
             (DISPLACEMENT_RATIO, displacement_ratio),
             (VELOCITY_RATIO, velocity_ratio),
-            (ENERGY_GAIN, gains().fold(0.0, f64::max)),
-            (ENERGY_LOSS, gains().map(|g| -g).fold(0.0, f64::max)),
-            (ENERGY_END, gains().next_back().unwrap_or(f64::NAN)),
             (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
-            (KINETIC_ENERGY_PEAK, peak),
             (MASS, totals.mass),
             (BODY_MASS, errors::mass::<D>(solution)),
-        ];
+        ]);
         let norms = [
             ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
             ([VELOCITY_L2, VELOCITY_LINF], velocity),
@@ -280,16 +317,9 @@ where
         ];
         values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
         if self.scenario.setup.rule() == Some(RuleName::Midpoint) {
-            values.push((LUMPING_LOSS, share(totals.accumulated.lumping_loss)));
+            values.push((LUMPING_LOSS, share(totals.accumulated.lumping_loss, peak(&seen.rows))));
         }
-        if let Some([frequency, amplitude]) = self.vibration(seen, run.time()) {
-            values.extend([
-                (FREQUENCY_RATIO, frequency),
-                (FREQUENCY_ERROR, (frequency - 1.0).abs()),
-                (AMPLITUDE_RATIO, amplitude),
-                (DAMPING, -amplitude.ln()),
-            ]);
-        }
+        values.extend(self.vibration(&seen.rows).into_iter().flatten());
         values.extend(self.rest(seen, run));
         values
     }

@@ -3,9 +3,9 @@
 use super::phase::Phase;
 use super::setup::Setup as Made;
 use super::solving::{Compiled, Solving};
-use crate::cases::observe::checkerboard;
 use crate::cases::prelude::*;
 use crate::problem;
+use crate::statistics::checkerboard;
 use mpm_core::basis::WallTreatment;
 
 metrics! { pub(super) ALL:

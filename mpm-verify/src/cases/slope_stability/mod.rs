@@ -3,6 +3,7 @@
 //! The section and the elasticity of the landslide with perfect plasticity: no softening, so that limit analysis says what
 //! is right. Set-up, choices and tolerances: `docs/slope-stability.md`.
 
+pub(super) mod foreign;
 mod run;
 
 use super::slope::{self, ground::STABILITY};

@@ -23,16 +23,16 @@ const TRIAL_DAMPING: f64 = 0.5;
 const RIM: f64 = 1e-3;
 
 /// A trial.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-struct Trial {
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub(super) struct Trial {
     /// Factor by which the strength is divided.
-    factor: f64,
+    pub(super) factor: f64,
     /// Whether the slope fails.
-    fails: bool,
+    pub(super) fails: bool,
     /// Largest displacement (m) of a particle.
-    moved: f64,
+    pub(super) moved: f64,
     /// Duration (s).
-    time: f64,
+    pub(super) time: f64,
 }
 
 /// Observations of the trials.
@@ -48,13 +48,11 @@ pub(super) struct Seen {
     factor: Option<f64>,
 }
 
-impl Seen {
-    /// Largest factor at which it stands and least at which it fails, of those tried.
-    fn bracket(&self) -> (f64, f64) {
-        let of = |fails| self.trials.iter().filter(move |t| t.fails == fails).map(|t| t.factor);
-        let stands = of(false).fold(1.0, f64::max);
-        (stands, of(true).fold(f64::INFINITY, f64::min))
-    }
+/// Largest factor at which the slope stands and least at which it fails, of those tried.
+pub(super) fn bracket(trials: &[Trial]) -> (f64, f64) {
+    let of = |fails| trials.iter().filter(move |t| t.fails == fails).map(|t| t.factor);
+    let stands = of(false).fold(1.0, f64::max);
+    (stands, of(true).fold(f64::INFINITY, f64::min))
 }
 
 impl Setup<Stability> {
@@ -93,13 +91,13 @@ impl Setup<Stability> {
 
     /// The factor to try next: the largest, then the middle of the bracket.
     fn next_factor(&self, seen: &Seen) -> f64 {
-        let (stands, fails) = seen.bracket();
+        let (stands, fails) = bracket(&seen.trials);
         if seen.trials.is_empty() { self.most } else { 0.5 * (stands + fails) }
     }
 
     /// Whether no factor is left to try.
     fn is_known(&self, seen: &Seen) -> bool {
-        let stands_always = seen.bracket().1.is_infinite() && !seen.trials.is_empty();
+        let stands_always = bracket(&seen.trials).1.is_infinite() && !seen.trials.is_empty();
         stands_always || seen.trials.len() >= self.trials as usize
     }
 
@@ -112,9 +110,9 @@ impl Setup<Stability> {
     }
 
     /// The metrics of the trials of a ground of this mass (kg/m).
-    fn measure(&self, seen: &Seen, mass: f64) -> Vec<(Metric, f64)> {
-        let (stands, fails) = seen.bracket();
-        let standing = seen.trials.iter().find(|t| t.factor == stands);
+    pub(super) fn measure(&self, trials: &[Trial], mass: f64) -> Vec<(Metric, f64)> {
+        let (stands, fails) = bracket(trials);
+        let standing = trials.iter().find(|t| t.factor == stands);
         let middle = 0.5 * (stands + fails);
         let factor = if fails.is_finite() { middle } else { stands };
         vec![
@@ -253,7 +251,7 @@ impl Problem<2> for Trials {
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
-        let mut values = self.setup.measure(seen, phase.run.totals().mass);
+        let mut values = self.setup.measure(&seen.trials, phase.run.totals().mass);
         if self.setup.is_implicit() {
             let iterations = phase.work().newton_iterations;
             values.push((NEWTON_ITERATIONS, iterations as f64));
@@ -281,7 +279,7 @@ mod tests {
             let factor = slope.next_factor(&seen);
             seen.trials.push(Trial { factor, fails: factor > limit, moved: 0.01 * factor, time: LOOK });
         }
-        let values = slope.measure(&seen, 1.0);
+        let values = slope.measure(&seen.trials, 1.0);
         let value = move |of: Metric| values.iter().find(|(m, _)| *m == of).unwrap().1;
         (seen.trials.iter().map(|t| t.factor).collect(), value)
     }

@@ -1,7 +1,7 @@
 //! Derived quantities, scene and observations of half of a strip on a square of soil, or of a quarter of a square on a cube.
 
 use super::*;
-use crate::cases::poro::{above_rounding, matrix_entries, outflow, volumes};
+use crate::cases::poro::{above_rounding, kept, matrix_entries, outflow, volumes};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
@@ -348,11 +348,7 @@ where
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
+        kept(columns)
             .each("effective_stress_yy", "Pa", |p, k| p.stress[k].yy)
             .each("effective_stress_xy", "Pa", |p, k| p.stress[k].xy)
             .field("plastic_strain", "-", Field::PlasticStrain)

@@ -1,17 +1,11 @@
 //! Derived quantities, scene and observations of the column.
 
 use super::*;
-use crate::cases::growth;
-use crate::cases::poro::{ROUNDING, base_pressure, lost_volume, mass_error, matrix_entries, outflow};
+use crate::cases::poro::*;
 use crate::exact::terzaghi::FirstStep;
+use crate::statistics::growth;
 use mpm_core::poro::{Face, Settings};
 
-/// Height of the column (m).
-pub(super) const HEIGHT: f64 = 1.0;
-/// Particles a cell.
-const PER_CELL: usize = 2;
-/// Empty cells above it.
-const ROOM: usize = 2;
 /// Largest q/M: the finite part of the strain changes a distance by ten times as much.
 const SMALL: f64 = 1e-6;
 /// Largest change of an overshoot or a settlement by finite strain and Newton's tolerance.
@@ -34,7 +28,7 @@ impl Setup<Terzaghi> {
         match (first, self.steps) {
             (0.0, count) => (self.time_end / f64::from(count), 1.0),
             (_, 1) => (first, 1.0),
-            (_, count) => (first, growth::factor(first, count, self.time_end)),
+            (_, count) => (first, growth(first, count, self.time_end)),
         }
     }
 
@@ -54,33 +48,47 @@ impl Setup<Terzaghi> {
         self.first_and_growth().0 * (HEIGHT / self.h).powi(2)
     }
 
-    /// Cells of the pressure.
-    pub(super) fn cells(&self) -> u32 {
+    /// Cells of a pressure space.
+    fn cells(&self, space: SpaceName) -> u32 {
         let cells = (HEIGHT / self.h).round() as u32;
-        if self.space() == Some(TwoGrid) { cells / 2 } else { cells }
+        if space == TwoGrid { cells / 2 } else { cells }
     }
 
     /// The discrete equations of a step with c_v Δt/h² = `share`.
-    pub(super) fn equations(&self, share: f64) -> FirstStep {
-        match self.space() {
-            Some(TwoGrid) => FirstStep::two_grid(share),
-            _ => FirstStep::same_cells(share, self.projection_strength()),
+    fn equations(&self, space: SpaceName, share: f64) -> FirstStep {
+        match space {
+            TwoGrid => FirstStep::two_grid(share),
+            _ => FirstStep::same_cells(share, self.strength_in(space)),
         }
     }
 
-    /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
-    pub(super) fn settlement_distance(&self) -> f64 {
-        let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
-        let settled = exact::settlement_of_equations(|r| self.equations(r), self.cells() as usize, &shares);
-        (settled - exact::settlement(self.end())).abs()
+    /// Overshoot of a first step with c_v Δt/h² = `share` by the discrete equations.
+    pub(super) fn overshoot_by(&self, space: SpaceName, share: f64) -> f64 {
+        self.equations(space, share).overshoot(self.cells(space))
     }
 
-    /// Largest nodal pressure over the load, minus one; zero where that is rounding.
+    /// Difference at the end between Terzaghi's settlement and that of the discrete equations.
+    pub(super) fn settlement_distance(&self, space: SpaceName) -> f64 {
+        let shares: Vec<f64> = self.durations().iter().map(|t| t * (HEIGHT / self.h).powi(2)).collect();
+        let of = |r| self.equations(space, r);
+        (exact::settlement_of_equations(of, self.cells(space) as usize, &shares) - exact::settlement(self.end())).abs()
+    }
+
+    /// What finite strain and the last bits of J̃ in every step change of a settlement.
+    pub(super) fn resolution(&self) -> f64 {
+        FINITE + 4.0 * f64::EPSILON * f64::from(self.steps) / self.strain()
+    }
+
+    /// The largest of a number of the three pressure spaces.
+    pub(super) fn largest(&self, of: impl Fn(SpaceName) -> f64) -> f64 {
+        [TwoGrid, Equal, Ppp].map(of).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Largest nodal pressure over the load, minus one.
     fn overshoot(&self, run: &dyn Simulation<1>) -> f64 {
         let nodes = run.pressure_nodes();
         let most = nodes.iter().fold(0.0, |most: f64, (_, p)| most.max(*p));
-        let over = most / self.load - 1.0;
-        if over > ROUNDING { over } else { 0.0 }
+        beyond_rounding(most / self.load - 1.0)
     }
 
     /// Settlement over the final one.
@@ -118,16 +126,9 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        let cells = (HEIGHT / self.h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let spacing = self.h / PER_CELL as f64;
-        // Nothing moves by its weight: any density will do.
-        let particles = self.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
-        let law = Hencky::new(self.young_modulus, self.poisson_ratio)?;
-        let scene = Scene::new(Grid::new(self.h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
+        let scene = column(self, Hencky::new(self.young_modulus, self.poisson_ratio)?)?;
         let (load, h) = (self.load, self.h);
-        let topmost = move |x: &[f64; 1]| x[0] > HEIGHT - spacing;
-        let top = Face::loaded(&scene.body.particles, topmost, (0, End::Hi), move |_| [-load]);
+        let top = Face::loaded(&scene.body.particles, topmost(h), (0, End::Hi), move |_| [-load]);
         let water = Water::new(self.porosity, Conductivity::Constant(self.kappa()))
             .drained(move |x| x[0] > HEIGHT - 0.25 * h)
             .face(top);
@@ -166,12 +167,7 @@ impl Problem<1> for Setup<Terzaghi> {
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        columns
-            .references()
-            .field("pore_pressure", "Pa", Field::PorePressure)
-            .field("porosity", "-", Field::Porosity)
-            .each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
-            .jacobian()
+        kept(columns).jacobian()
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

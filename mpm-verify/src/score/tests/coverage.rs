@@ -35,8 +35,10 @@ fn a_series_that_does_not_show_what_is_judged_is_not_judged() {
     for check in ["front", "arrival"] {
         assert_eq!(found(&sound.runs[0], check)[0].0, Outcome::Right, "{:?}", found(&sound.runs[0], check));
     }
-    // The pressure behind the gate, which no column gives, is not asked for.
-    assert!(gate::gate(true, &["front"]).refusal(&sound).is_none());
+    assert!(gate::gate(false, &["front"]).refusal(&sound).is_none());
+    // The pressure behind the gate is wanted too.
+    let strict = gate::gate(true, &["front"]).refusal(&sound).unwrap_or_default();
+    assert!(strict.contains("pressure (pressure-profile: missing: "), "{strict}");
     let changes: [(Change, &str); 5] = [
         (|rows| rows.iter_mut().for_each(|row| row.0 *= 1000.0), "begins at time"),
         (|rows| rows.iter_mut().for_each(|row| row.0 += 1.0), "begins at time"),
@@ -173,4 +175,107 @@ fn a_footing_with_a_checkerboard_is_not_smooth() {
         found(&result.score().unwrap(), "smooth-squares").remove(0).0
     };
     assert_eq!([0.0, 50.0, 200.0, 1e6].map(smooth), [Outcome::Right, Outcome::Right, Outcome::Failed, Outcome::Failed]);
+}
+
+/// Zeros of a wave are those of rows that show every period, and a bound by the time step needs one.
+#[test]
+fn a_wave_is_judged_of_rows_that_show_its_periods() {
+    let told = |rows: usize, speed: f64, more: &[(&str, Value)]| {
+        let omega = speed * std::f64::consts::PI * (1e7 * 0.7 / (1.3 * 0.4) / 1000.0_f64).sqrt();
+        let time: Vec<f64> = (1..=rows).map(|k| 1.73 * k as f64 / rows as f64).collect();
+        let mode = time.iter().map(|t| (omega * t).sin()).collect();
+        let kinetic: Vec<f64> = time.iter().map(|t| (omega * t).cos().powi(2)).collect();
+        let result = Answer::exported("vibrating-bar", "n8", &[]);
+        let start = kinetic_energy(&result);
+        let columns = [
+            ("time (s)", time.clone()),
+            ("mode (-)", mode),
+            ("kinetic_energy (J)", kinetic.iter().map(|k| k * start).collect()),
+            ("energy (J)", vec![start; rows]),
+        ];
+        let columns = columns.into_iter().map(|(head, values)| (head.to_owned(), values));
+        Table::of_columns(columns.collect()).write(&result.path("series.csv")).unwrap();
+        more.iter().for_each(|(key, value)| result.say(key, value.clone()));
+        result.score().unwrap()
+    };
+    let step = [("time_step_s", json!(1e-5))];
+    let outcome = |scored: &Scored, check| found(scored, check).remove(0);
+    let sound = told(4000, 1.0, &step);
+    for check in ["frequency", "keeps-energy", "no-energy-gain"] {
+        assert_eq!(outcome(&sound, check).0, Outcome::Right, "{:?}", outcome(&sound, check));
+    }
+    let ratio = sound.record.value("frequency_ratio");
+    assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
+    assert_eq!(outcome(&told(4000, 1.1, &step), "frequency").0, Outcome::Failed);
+    let coarse = outcome(&told(500, 1.0, &step), "frequency");
+    assert!(coarse.0 == Outcome::NotJudged && coarse.1.contains("apart after time"), "{coarse:?}");
+    let silent = outcome(&told(4000, 1.0, &[]), "no-energy-gain");
+    assert!(silent.0 == Outcome::NotJudged && silent.1.contains("`time_step_s`"), "{silent:?}");
+}
+
+/// Kinetic energy (J) of the bar at its start, ¼ ρ ω² A² L.
+fn kinetic_energy(of: &Answer) -> f64 {
+    let parameters = of.json("parameters.json")["parameters"].clone();
+    let value = |name: &str| {
+        let own = parameters.as_array().unwrap().iter().find(|p| p["name"] == name);
+        own.unwrap()["value"].as_f64().unwrap()
+    };
+    let nu = value("poisson_ratio");
+    let modulus = value("young_modulus") * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu));
+    0.25 * modulus * (std::f64::consts::PI * value("amplitude")).powi(2)
+}
+
+/// Factors that leave a wide bracket, or none, say nothing of the factor of safety.
+#[test]
+fn a_factor_of_safety_is_that_of_a_narrow_bracket() {
+    let trials = |rows: &[(f64, f64)]| {
+        let (factors, fails) = rows.iter().copied().unzip();
+        let scored = with_series("slope-stability", "h0.4", &[("factor (-)", factors), ("fails (-)", fails)]).score();
+        found(&scored.unwrap(), "limit-load").remove(0)
+    };
+    for (rows, expected) in [
+        (&[(1.65, 0.0), (1.66, 1.0), (2.0, 1.0)][..], Outcome::Right),
+        (&[(2.0, 0.0), (2.01, 1.0)], Outcome::Failed),
+        (&[(3.0, 0.0)], Outcome::Failed),
+        (&[(1.0, 0.0), (2.3, 1.0)], Outcome::NotJudged),
+        (&[(1.5, 0.0)], Outcome::NotJudged),
+        (&[(1.7, 0.0), (1.65, 1.0)], Outcome::NotJudged),
+    ] {
+        let (outcome, source) = trials(rows);
+        assert_eq!(outcome, expected, "{rows:?}: {source}");
+    }
+}
+
+#[test]
+fn a_column_that_ends_early_or_begins_late_is_judged_of_what_it_shows() {
+    let outcomes = |times: &[f64]| {
+        let series = [
+            ("time_factor (-)", times.to_vec()),
+            ("settlement (-)", times.iter().map(|t| crate::exact::terzaghi::settlement(*t)).collect()),
+            ("overshoot (-)", vec![-1e-3; times.len()]),
+        ];
+        let scored = with_series("terzaghi", "n10", &series).score().unwrap();
+        ["near-terzaghi", "bounded-overshoot"].map(|check| found(&scored, check).remove(0).0)
+    };
+    let [right, open] = [Outcome::Right, Outcome::NotJudged];
+    assert_eq!(outcomes(&[0.0025, 0.05, 0.1]), [right, right]);
+    assert_eq!(outcomes(&[0.0025, 0.05]), [open, right]);
+    assert_eq!(outcomes(&[0.005, 0.1]), [right, open]);
+}
+
+/// A ground that is looked at only while it slides has no state of rest, and a slide that ends early no end.
+#[test]
+fn a_slide_is_judged_of_rows_at_its_start_and_its_end() {
+    let outcomes = |times: &[f64]| {
+        let zeros = || vec![0.0; times.len()];
+        let series = [("time (s)", times.to_vec()), ("failed_share (-)", zeros()), ("base_force (N/m)", zeros())];
+        let result = with_series("landslide-2d", "h0.4", &series);
+        result.say("parameters", json!({"reduction": 1}));
+        let scored = result.score().unwrap();
+        ["base-reaction", "stands"].map(|check| found(&scored, check).remove(0).0)
+    };
+    let [right, open, failed] = [Outcome::Right, Outcome::NotJudged, Outcome::Failed];
+    assert_eq!(outcomes(&[-0.5, 0.0, 2.0, 5.5]), [failed, right]);
+    assert_eq!(outcomes(&[0.1, 5.5]), [open, right]);
+    assert_eq!(outcomes(&[0.0, 2.0]), [failed, open]);
 }
