@@ -6,7 +6,7 @@ use mpm_verify::spec::RunSpec;
 
 /// Refused: exit code 2, one line on stderr that names what is wrong and what is allowed, and no
 /// trace in the output folder.
-fn refused(arguments: &[&str], needles: &[&str]) {
+pub(super) fn refused(arguments: &[&str], needles: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let mut all = arguments.to_vec();
@@ -17,7 +17,7 @@ fn refused(arguments: &[&str], needles: &[&str]) {
     let text = stderr(&output);
     assert_eq!(code(&output), 2, "{arguments:?}: {text}");
     assert_eq!(text.trim_end().lines().count(), 1, "{arguments:?}: {text}");
-    assert!(text.starts_with("error: "), "{text}");
+    assert!(text.starts_with("error: ") && stdout(&output).is_empty(), "{text}");
     for needle in needles {
         assert!(text.contains(needle), "\"{needle}\" is missing in: {text}");
     }

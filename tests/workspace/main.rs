@@ -125,19 +125,18 @@ fn copy_tree(from: &Path, to: &Path) {
 
 /// Every file below a folder, relative to it, with its content; but not that which says who writes there.
 fn files(root: &Path) -> std::collections::BTreeMap<PathBuf, Vec<u8>> {
-    fn walk(root: &Path, folder: &Path, found: &mut std::collections::BTreeMap<PathBuf, Vec<u8>>) {
+    let (mut found, mut folders) = (std::collections::BTreeMap::new(), vec![root.to_path_buf()]);
+    while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(folder).unwrap() {
             let path = entry.unwrap().path();
             if path.is_dir() {
-                walk(root, &path, found);
+                folders.push(path);
             } else if !path.ends_with(".mpm-verify.lock") {
                 let name = path.strip_prefix(root).unwrap().to_path_buf();
                 found.insert(name, fs::read(&path).unwrap());
             }
         }
     }
-    let mut found = std::collections::BTreeMap::new();
-    walk(root, root, &mut found);
     found
 }
 
