@@ -151,14 +151,14 @@ fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
         let own = json(&folder.join("record.json"));
         let scored = measured(&folder, &own);
         assert_eq!(scored.record.scheme().to_string(), scheme);
-        for verdict in &scored.record.verdicts {
+        let all = &scored.record.verdicts;
+        for verdict in all {
             // A wanted quantity may be judged of ours by more checks, which a source names.
             let same = |v: &&Value| v["check"] == verdict.check && v["outcome"] == json!(verdict.outcome);
             let wanted = own["verdicts"].as_array().unwrap().iter().any(|v| verdict.is_wanted() && same(&v));
             assert!(wanted || own["verdicts"].as_array().unwrap().contains(&json!(verdict)), "{case}: {verdict:?}");
         }
-        let right = |v: &&Verdict| v.is_wanted() && v.outcome == Outcome::Right;
-        assert!(scored.record.verdicts.iter().any(|v| right(&v)), "{case}: {:?}", scored.record.verdicts);
+        assert!(all.iter().any(|v| v.is_wanted() && v.outcome == Outcome::Right), "{case}: {all:?}");
     }
     let scored: BTreeSet<&str> = cases::scored().map(|(case, _)| case.name).collect();
     assert_eq!(scored, RUNS.map(|run| run.0).into(), "a case that scores is not among the runs");
