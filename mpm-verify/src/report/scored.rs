@@ -130,12 +130,15 @@ fn ladders(scores: &Scores) -> impl Iterator<Item = (String, &CaseStudy, Sheet)>
     })
 }
 
-/// The verdict: of a run in one line, of a list failures and counts too.
+/// The verdict: of a run in one line; of a list a line a run, failures and counts too.
 #[must_use]
 pub fn verdict(scores: &Scores) -> String {
     match &scores.runs[..] {
         [run] if !scores.is_list() => run_line(&run.record),
-        _ => verification(&scores.summary()),
+        runs => {
+            let line = |run: &Scored| wrapped(&format!("{}: {}", run.name(), sentence(&run.record)), "", "  ");
+            runs.iter().map(line).collect::<String>() + &verification(&scores.summary())
+        }
     }
 }
 

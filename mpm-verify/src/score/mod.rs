@@ -81,7 +81,7 @@ impl Scores {
         Ok(Self { case, code, together, runs })
     }
 
-    /// What is said of all runs, as of our own.
+    /// Counts and verdicts of all runs, as for our own.
     pub(crate) fn summary(&self) -> Summary {
         Summary::new("score", self.together.iter().map(|(_, study)| study.clone()).collect())
     }

@@ -64,7 +64,7 @@ impl Answer {
         Scores::read(&self.folder.path().join("out"))
     }
 
-    /// Of the only run.
+    /// The only run.
     fn score(&self) -> Result<Scored, Error> {
         self.scores().map(|mut scores| scores.runs.remove(0))
     }

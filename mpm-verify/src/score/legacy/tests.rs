@@ -191,6 +191,8 @@ fn what_is_no_grid_is_refused() {
 }
 
 proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..ProptestConfig::default() })]
+
     /// Whatever is changed, nothing panics, and no more than 64 times the bytes of the file are held.
     #[test]
     fn what_is_damaged_is_refused_or_read_within_its_size(

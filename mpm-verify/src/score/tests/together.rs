@@ -112,7 +112,7 @@ fn the_worst_run_counts_and_is_named() {
     let gate = gate::gate(false, &[]);
     assert_eq!(gate.exit_code(&scores), ExitCode::TruthFailed);
     let said = verdict(&scores);
-    assert!(said.contains("FAILED: 1 of 3 runs") && said.contains("corner"), "{said}");
+    assert!(said.contains("FAILED: 1 of 3 runs") && said.contains("run 3 (h0.025): FAILED: corner"), "{said}");
     let ours = Ours::beside(&scores).unwrap();
     let told = text(&scores, &ours);
     for part in ["cantilever run 1 (h0.1): my code", "run 3 (h0.025) together", "corner_error", "between", "falls"] {
