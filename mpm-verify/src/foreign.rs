@@ -193,7 +193,7 @@ pub struct Foreign {
 }
 
 impl Foreign {
-    /// Of the problem `P` in `D` dimensions, with these groups. A code is judged as quadratic splines with `fbar-consistent`,
+    /// That of the problem `P` in `D` dimensions, with these groups. A code is judged as quadratic splines with `fbar-consistent`,
     /// and its rows leave nothing open.
     pub(crate) fn of<const D: usize, P: Problem<D>>(groups: Vec<Group>) -> Self
     where

@@ -164,7 +164,7 @@ fn our_own_run_told_as_anothers_is_measured_and_judged_as_it_is() {
     assert_eq!(scored, RUNS.map(|run| run.0).into(), "a case that scores is not among the runs");
 }
 
-/// What a known limit explains of our scheme is FAILED of another code, check by check.
+/// A miss that a known limit explains of our scheme is FAILED of another code, check by check.
 #[test]
 fn what_is_wrong_as_known_of_ours_fails_of_another() {
     for (run, check) in MISSES {

@@ -39,7 +39,7 @@ pub(super) fn topmost(h: f64) -> impl Fn(&[f64; 1]) -> bool + Copy {
     move |x| x[0] > HEIGHT - h / PER_CELL as f64
 }
 
-/// What is kept of particles: where they start, and what they hold of the water and along the first axis.
+/// Columns that are kept of particles: where they start, their water, and their stress along the first axis.
 pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
     columns.references().field("pore_pressure", "Pa", Field::PorePressure).field("porosity", "-", Field::Porosity).each(
         "effective_stress_xx",

@@ -74,7 +74,7 @@ impl Setup<Terzaghi> {
         (exact::settlement_of_equations(of, self.cells(space) as usize, &shares) - exact::settlement(self.end())).abs()
     }
 
-    /// What finite strain and the last bits of J̃ in every step change of a settlement.
+    /// The change of a settlement by finite strain, and by the last bits of J̃ in every step.
     pub(super) fn resolution(&self) -> f64 {
         FINITE + 4.0 * f64::EPSILON * f64::from(self.steps) / self.strain()
     }

@@ -208,7 +208,7 @@ fn a_wave_is_judged_of_rows_that_show_its_periods() {
     assert!((ratio - 1.0).abs() < 1e-4, "{ratio}");
     assert_eq!(outcome(&told(4000, 1.1, &step), "frequency").0, Outcome::Failed);
     let coarse = outcome(&told(500, 1.0, &step), "frequency");
-    assert!(coarse.0 == Outcome::NotJudged && coarse.1.contains("apart after time"), "{coarse:?}");
+    assert!(coarse.0 == Outcome::NotJudged && coarse.1.contains("begins at time"), "{coarse:?}");
     let silent = outcome(&told(4000, 1.0, &[]), "no-energy-gain");
     assert!(silent.0 == Outcome::NotJudged && silent.1.contains("`time_step_s`"), "{silent:?}");
 }
