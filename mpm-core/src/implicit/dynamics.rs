@@ -8,6 +8,9 @@ use super::{Interpolation, Setting, Solver};
 use crate::material::Law;
 use nalgebra::SVector;
 
+/// Share of the heaviest node's mass below which a node's is rounding.
+const WEIGHTLESS: f64 = 1e-12;
+
 /// A field on the nodes.
 type Field<const D: usize> = Vec<SVector<f64, D>>;
 
@@ -96,9 +99,10 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let (change, iterations) = mass.solve(elements, &impulse, |node, axis| self.held_change(node, axis, dt))?;
         // Particles take ½ Δvᵀ M_c Δv where the nodes gave ½ Δvᵀ M_β Δv.
         let shared = mass.scatter(elements, |p| elements.value(p, &change));
-        // A node with hardly any mass may be so fast that its share counts.
+        // Nodes without a share worth the name have no particles that could miss it.
+        let least = WEIGHTLESS * mass.heaviest();
         let pairs = change.iter().zip(&shared).zip(&mass.node);
-        let lost = pairs.map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
+        let lost = pairs.filter(|(_, m)| **m > least).map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
         self.ledger.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
         self.ledger.work.linear_iterations += iterations;
         let particles = &mut self.scene.body.particles;

@@ -29,9 +29,6 @@ use manifest::{FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Checks on runs together that compare with the time steps of our scheme, by case: no code need take these.
-const OF_OUR_STEPS: [(&str, &str); 2] = [("consolidation", "order-space"), ("consolidation", "richardson")];
-
 /// Runs of another code for one case, judged.
 pub struct Scores {
     /// The case.
@@ -103,8 +100,9 @@ impl Scores {
 fn together(case: &Case, runs: &[&Scored]) -> CaseStudy {
     let mut study = CaseStudy::new(case.name, runs.iter().map(|run| run.record.clone()).collect());
     let missing = crate::distinct(runs.iter().flat_map(|run| &run.missing).map(Asked::place)).join(", ");
+    let is_asked = |check: &str| find_scored(case.name).is_ok_and(|(_, foreign)| foreign.asks(check));
     let why = |v: &Verdict| match [v.value, v.reference, v.tolerance].into_iter().flatten().any(f64::is_nan) {
-        _ if OF_OUR_STEPS.contains(&(case.name, &*v.check)) => Some("against time steps of our scheme".to_owned()),
+        _ if !is_asked(&v.check) => Some("against the discrete equations of our scheme".to_owned()),
         true => Some(format!("the runs do not give all that it compares (missing: {missing})")),
         false => runs.iter().find_map(|run| open(&run.gaps, v)),
     };

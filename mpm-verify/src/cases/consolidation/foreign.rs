@@ -26,6 +26,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
     Foreign {
         judged_as: |_| Scheme::poro(Gimp, TwoGrid),
         abscissa: Some(TIME),
+        own_checks: &["order-space", "richardson"],
         gaps,
         curves: |parameters| {
             let exact = Consolidation::read(parameters).map(|column| solution(column.load, None));

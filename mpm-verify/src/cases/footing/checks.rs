@@ -29,7 +29,7 @@ const SMEARED: f64 = 2.0;
 /// Penetration over B, over s_u/E, from which on the load of the finite elements is within ½ % of its limit on a
 /// ground of 6B × 6B at ν = 0.49; a smaller one is stiffer and gets there sooner.
 const PLASTIC: f64 = 18.5;
-/// Poisson's ratio for which the tolerances of F̄ are stated.
+/// Poisson's ratio of the finite elements, for which the tolerances of F̄ are stated.
 const STATED: f64 = 0.49;
 /// Largest penetration over B at which the ground has kept its shape.
 const SMALL: f64 = 0.01;
@@ -89,8 +89,8 @@ impl Setup<Footing> {
 
     /// Reason for the lack of a limit load to compare with, if it is lacking.
     fn no_limit(&self) -> Option<String> {
-        // The limit pressure over K also compresses a depth of B.
-        let compressed = 3.0 * (1.0 - 2.0 * self.poisson_ratio) * EXACT;
+        // The limit pressure over K compresses a depth of B by so much more than at the ratio of the finite elements.
+        let compressed = 6.0 * (STATED - self.poisson_ratio).max(0.0) * EXACT;
         let plastic = (PLASTIC + compressed) * self.strength_ratio();
         if 0.75 * self.penetration < plastic {
             Some(format!("the ground is fully plastic from s/B = {plastic} on only"))

@@ -269,7 +269,8 @@ fn orders_that_hang_on_our_steps_are_not_judged() {
     assert!(all.iter().any(|v| v.check == "richardson"));
     for verdict in all {
         assert!(
-            verdict.outcome == Outcome::NotJudged && verdict.source.contains("against time steps of our scheme"),
+            verdict.outcome == Outcome::NotJudged
+                && verdict.source.contains("against the discrete equations of our scheme"),
             "{verdict:?}"
         );
     }
