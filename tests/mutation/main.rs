@@ -169,7 +169,7 @@ impl<'a> Mutant<'a> {
                 let broken = self.judge(Some(fault), runs);
                 let failed: BTreeSet<&str> = match &broken {
                     Some(broken) => {
-                        let failed = broken.iter().filter(|v| v.failed());
+                        let failed = broken.iter().filter(|v| v.failed() && !v.is_wanted());
                         failed.map(|v| v.check.as_str()).collect()
                     }
                     None => BTreeSet::from([NO_RECORD]),

@@ -4,8 +4,7 @@ use super::{code, json, mpm_verify, stderr, stdout, text};
 use mpm_verify::parameter::Parameters;
 use mpm_verify::spec::RunSpec;
 
-/// Refused: exit code 2, one line on stderr that names what is wrong and what is allowed, and no
-/// trace in the output folder.
+/// Refused: exit code 2, one line on stderr that names what is wrong and allowed, and no trace in the output folder.
 pub(super) fn refused(arguments: &[&str], needles: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");

@@ -296,7 +296,8 @@ fn damaged_summaries_histories_and_rows_are_refused_or_kept_inside() {
 
 #[test]
 fn a_damaged_result_of_another_code_is_refused_or_judged() {
-    let folder = run();
+    let folder = tempfile::tempdir().unwrap();
+    super::mpm_verify(&["run", "cook", "--out", folder.path().to_str().unwrap()]);
     let manifest = folder.path().join("score.json");
     let of = |particles: &str| {
         format!(

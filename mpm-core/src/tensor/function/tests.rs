@@ -27,10 +27,10 @@ fn distance(a: &SymmetricTensor, b: &SymmetricTensor) -> f64 {
 }
 
 proptest! {
-    /// On both sides of the switch, and from strains of 10⁻⁶ on: series and eigenvalues agree to
-    /// rounding of the identity that the strain is added to.
+    /// On both sides of the switch, for strains from 10⁻⁶ to one third: series and eigenvalues agree to rounding of the
+    /// identity that the strain is added to. Larger ones are left to the next test, as the exponential outgrows it.
     #[test]
-    fn series_and_eigenvalues_agree(a in tensors(), digits in -6.0..0.0_f64) {
+    fn series_and_eigenvalues_agree(a in tensors(), digits in -6.0..-0.5_f64) {
         for a in [a, planar(a)] {
             let strain = a.scale_add_identity(10.0_f64.powf(digits), 0.0);
             let b = map_eigenvalues(&strain, f64::exp);

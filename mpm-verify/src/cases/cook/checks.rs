@@ -223,7 +223,7 @@ impl Setup<Cook> {
 }
 
 impl Run<'_, Cook> {
-    /// Reason why the state at the end is none of rest, if it is to be.
+    /// Reason why the state at the end is not one of rest, if it should be.
     fn still_moves(&self) -> Option<String> {
         let moves = self.metric(AT_REST) == 0.0 && !self.is_recursive();
         self.swings().or_else(|| moves.then(|| "the body still moves at the end: see at-rest".to_owned()))
