@@ -108,7 +108,7 @@ pub(crate) fn headline(metric: Metric, title: &str, factor: f64, decimals: usize
         0..=5 => fixed(decimals),
         _ => scientific(2),
     };
-    Column { metric: Some(metric), ..Column::metric(title, metric, format.times(factor)) }
+    Column::metric(title, metric, format.times(factor))
 }
 
 impl Column {
@@ -128,7 +128,7 @@ impl Column {
 
     /// A metric of a run.
     pub(crate) fn metric(title: impl Into<String>, metric: Metric, format: Format) -> Self {
-        Self::value(title, move |r| r.metric(metric), format)
+        Self { metric: Some(metric), ..Self::value(title, move |r| r.metric(metric), format) }
     }
 
     /// Column of a text per row, given the runs of the row and of the table; the text may be empty.
@@ -236,7 +236,8 @@ pub struct ResultTable {
     pub name: String,
     shows: Of<bool>,
     labels: Vec<Label>,
-    columns: Vec<Column>,
+    /// Columns behind the labels.
+    pub columns: Vec<Column>,
     least: usize,
     across: bool,
 }

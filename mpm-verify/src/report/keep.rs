@@ -43,7 +43,8 @@ pub fn keep(report: &Path, folder: &Path) -> Result<usize, Error> {
 /// a page may cite them.
 fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>, Error> {
     let case = cases::find(&study.case)?;
-    let mut cited: BTreeSet<&str> = case.headlines.iter().filter_map(|h| Some(h.metric?.name)).collect();
+    let columns = case.headlines.iter().chain(case.tables.iter().flat_map(|table| &table.columns));
+    let mut cited: BTreeSet<&str> = columns.filter_map(|column| Some(column.metric?.name)).collect();
     cited.extend(case.quantities.iter().map(|q| q.metric.name));
     cited.extend(
         former.iter().filter(|row| row.case == study.case).flat_map(|row| row.metrics.keys().map(String::as_str)),
