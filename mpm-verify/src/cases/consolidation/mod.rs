@@ -39,7 +39,7 @@ parameters! {
         refine: i32 = whole("-", "4", 1, 64),
             "steps that each of the 125 is cut into; the reference of steps has 1, 2, 4 and 8";
         volume_rate: Rate = VOLUME_RATE, "what a step's volume changes by over its start: J̃ − 1, or J̃ ln J̃";
-        drain: f64 = real("-", "1e4", 1.0, 1e6), "what the drained top lets through for its pressure, over κ₀/h";
+        drain: f64 = real("-", "1e4", 10.0, 1e6), "what the drained top lets through for its pressure, over κ₀/h";
         ghost_displacement: f64 = real("-", "0", 0.0, 10.0), "ghost penalty of the displacement over G";
         ghost_pressure: f64 = real("-", "0", 0.0, 10.0), "ghost penalty of the pressure over κ₀ Δt";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";

@@ -27,7 +27,7 @@ parameters! {
     struct Undrained {
         domain: Domain = DOMAIN,
             "square: held all around, on grid lines; ellipse: half of one, held at its straight side, that fits no grid";
-        points_per_direction: usize = whole("-", "2", 1, 4), "particles per cell of the displacement and direction";
+        points_per_direction: usize = whole("-", "2", 2, 4), "particles per cell of the displacement and direction";
         layout: Layout = Layout::Aligned.by_default(),
             "aligned: domains fill cells; across: one more along each side, so that domains lie across grid lines";
         pressure_functions: PressureFunctions = PRESSURE_FUNCTIONS,
@@ -129,6 +129,10 @@ fn checks() -> Vec<Check> {
             .study(|records| at_least(records, INF_SUP, Equal, (1.0, "bilinear pressures on the cells of the displacement are not stable"))),
         Check::truth("one-constant", "square: only the constant pressure has no effect")
             .when(|b| b.domain == Domain::Square)
+            .unless(|b| {
+                let inexact = b.basis() == Linear && b.layout == Layout::Across;
+                inexact.then(|| "sums over points that lie otherwise in every other cell are no exact integrals".to_owned())
+            })
             .within(ZERO_MODES, |_| 1.0, |_| 0.0)
             .because("the particles' sums of ∂N/∂x are exact integrals, zero of what is held all around"),
         Check::known_limit("equal-order-has-checkerboards", "equal order on the square: pressures besides the constant one have no effect")
