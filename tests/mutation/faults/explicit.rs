@@ -16,7 +16,7 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
         file: "explicit/transfer/kernel.rs",
         sound: "momentum.as_mut_array()[3] = self.mass[l]",
         broken: "momentum.as_mut_array()[3] = 0.5 * self.mass[l]",
-        seen_by: &[(RATE, "mid-edge")],
+        seen_by: &[(RATE, "at-rest")],
     },
     Fault {
         name: "F-bar takes the cubic root in plane strain",
