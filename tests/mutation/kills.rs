@@ -73,8 +73,8 @@ impl Kills {
         let (count, few) = (self.0.len(), alone.len());
         let untrue = self.untrue();
         let sees = format!("Checks against the truth see {} of {count} faults.", count - untrue.len());
-        let others = "The others are marked **no truth**: bookkeeping, a breakdown, a regression band or a known limit sees them.";
-        writeln!(page, "\n{sees} {others}").unwrap();
+        let others = "The others are marked **no truth**: bookkeeping, a breakdown, a regression band or a known limit\nsees them.";
+        writeln!(page, "\n{sees}\n{others}").unwrap();
         writeln!(page, "{few} faults hang on one check only and are marked **alone**.\n").unwrap();
         writeln!(page, "| file | fault | seen by |\n|---|---|---|").unwrap();
         for fault in faults() {
