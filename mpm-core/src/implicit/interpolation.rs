@@ -23,6 +23,11 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// The grid.
     fn grid(&self) -> &Grid<D>;
 
+    /// Cells of an element along each axis.
+    fn span() -> [usize; D] {
+        [1; D]
+    }
+
     /// Length of a nodal array.
     fn len(&self) -> usize;
 
@@ -52,7 +57,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     /// They do not.
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
 
-    /// Gauss points along an axis that integrate the stiffness of a cell.
+    /// Gauss points along an axis that integrate the stiffness of an element.
     fn points(&self) -> usize;
 
     /// Ghost penalty of a field of this many `components` where `domains` are, with γ E the `strength` (Pa, or the

@@ -1,6 +1,7 @@
 //! Serendipity elements with eight nodes, the paper's: to reproduce its cantilever, which they do not converge to.
 //!
-//! Corners and mid-sides stand on a lattice of half the cell size, whose points in the middle of cells are no nodes.
+//! An element spans two cells by three, as the paper's of 0.1 m by 0.15 m does on cells of 0.05 m. Corners and mid-sides
+//! stand on a lattice of half the elements' size, whose points in the middle of elements are no nodes.
 
 use super::domains::Domains;
 use super::extension;
@@ -15,16 +16,26 @@ use crate::grid::Grid;
 /// Nodes of an element.
 const NODES: usize = 8;
 
-/// Serendipity elements on the cells of a grid.
+/// Serendipity elements on blocks of a grid's cells.
 #[derive(Debug, Clone)]
 pub struct Serendipity {
     grid: Grid<2>,
+    /// Size of an element (m).
+    size: [f64; 2],
 }
 
 impl Serendipity {
+    /// Cells of an element along each axis.
+    pub const SPAN: [usize; 2] = [2, 3];
+
+    /// Elements along an axis.
+    fn elements(&self, axis: usize) -> usize {
+        self.grid.axes[axis].cells / Self::SPAN[axis]
+    }
+
     /// Points of the lattice along an axis.
     fn points(&self, axis: usize) -> usize {
-        2 * self.grid.axes[axis].cells + 1
+        2 * self.elements(axis) + 1
     }
 }
 
@@ -56,11 +67,19 @@ impl Interpolation<2> for Serendipity {
     fn on(grid: Grid<2>) -> Result<Self, Error> {
         let periodic = grid.axes.iter().filter(|a| a.is_periodic()).count();
         require(periodic == 0, "periodic axes of serendipity elements", periodic as f64, "none")?;
-        Ok(Self { grid })
+        for (axis, span) in grid.axes.iter().zip(Self::SPAN) {
+            let allowed = "a multiple of 2 along x, of 3 along y";
+            require(axis.cells.is_multiple_of(span), "cells below serendipity elements", axis.cells as f64, allowed)?;
+        }
+        Ok(Self { grid, size: Self::SPAN.map(|cells| cells as f64 * grid.h) })
     }
 
     fn grid(&self) -> &Grid<2> {
         &self.grid
+    }
+
+    fn span() -> [usize; 2] {
+        Self::SPAN
     }
 
     fn len(&self) -> usize {
@@ -72,12 +91,11 @@ impl Interpolation<2> for Serendipity {
     }
 
     fn for_each_node(&self, mut visit: impl FnMut(usize, [f64; 2])) {
-        let (half, axes) = (0.5 * self.grid.h, &self.grid.axes);
+        let place = |axis: usize, k: usize| self.grid.axes[axis].lo + 0.5 * self.size[axis] * k as f64;
         for i in 0..self.points(0) {
             for j in 0..self.points(1) {
                 if i % 2 == 0 || j % 2 == 0 {
-                    let place = [axes[0].lo + half * i as f64, axes[1].lo + half * j as f64];
-                    visit(i * self.points(1) + j, place);
+                    visit(i * self.points(1) + j, [place(0, i), place(1, j)]);
                 }
             }
         }
@@ -88,21 +106,21 @@ impl Interpolation<2> for Serendipity {
     }
 
     fn functions(&self, x: &[f64; 2], _half_size: &[f64; 2], functions: &mut Functions<2>) {
-        let cell = [0, 1].map(|a| self.grid.cell(a, x[a]));
+        let element = [0, 1].map(|a| self.grid.cell(a, x[a]) / Self::SPAN[a]);
         let local = [0, 1].map(|a| {
-            let lo = self.grid.axes[a].lo + self.grid.h * cell[a] as f64;
-            2.0 * (x[a] - lo) / self.grid.h - 1.0
+            let lo = self.grid.axes[a].lo + self.size[a] * element[a] as f64;
+            2.0 * (x[a] - lo) / self.size[a] - 1.0
         });
-        functions.element = cell[0] * self.grid.axes[1].cells + cell[1];
+        functions.element = element[0] * self.elements(1) + element[1];
         functions.node.clear();
         functions.w.clear();
         functions.dw.clear();
         for corner in CORNERS {
-            let [i, j] = [0, 1].map(|a| 2 * cell[a] + (corner[a] + 1) as usize);
+            let [i, j] = [0, 1].map(|a| 2 * element[a] + (corner[a] + 1) as usize);
             let (w, dw) = function(local, corner);
             functions.node.push(i * self.points(1) + j);
             functions.w.push(w);
-            functions.dw.push(dw.map(|d| 2.0 * d / self.grid.h));
+            functions.dw.push([0, 1].map(|a| 2.0 * dw[a] / self.size[a]));
         }
     }
 
@@ -149,7 +167,7 @@ mod tests {
     /// They sum to one and reproduce quadratic fields but x²y², with their gradients.
     #[test]
     fn they_reproduce_quadratic_fields() {
-        let grid = Grid::new(0.5, [Axis::open(-1.0, 5), Axis::open(0.5, 4)]).unwrap();
+        let grid = Grid::new(0.25, [Axis::open(-1.0, 10), Axis::open(0.5, 9)]).unwrap();
         let elements = Serendipity::on(grid).unwrap();
         let mut place = vec![[f64::NAN; 2]; elements.len()];
         elements.for_each_node(|node, x| place[node] = x);
@@ -168,13 +186,13 @@ mod tests {
     }
 
     #[test]
-    fn every_cell_is_an_element_of_its_own() {
-        let grid = Grid::new(0.5, [Axis::open(0.0, 5), Axis::open(0.0, 4)]).unwrap();
+    fn every_block_is_an_element_of_its_own() {
+        let grid = Grid::new(0.25, [Axis::open(0.0, 10), Axis::open(0.0, 12)]).unwrap();
         let elements = Serendipity::on(grid).unwrap();
         let mut seen = Functions::new();
         let mut numbers = Vec::new();
         for k in 0..20 {
-            let x = [k / 4, k % 4].map(|cell| 0.5 * f64::from(cell) + 0.1);
+            let x = [0.5 * f64::from(k / 4) + 0.1, 0.75 * f64::from(k % 4) + 0.1];
             elements.functions(&x, &[0.0; 2], &mut seen);
             numbers.push(seen.element);
         }

@@ -6,7 +6,7 @@ use super::penalty::{Moduli, Penalty};
 use super::pieces::gauss;
 use nalgebra::DMatrix;
 
-/// Penalties of all cells of the grid.
+/// Penalties of all elements.
 pub(super) fn penalties<const D: usize, I: Interpolation<D>>(
     functions_of: &I,
     factor: f64,
@@ -14,24 +14,25 @@ pub(super) fn penalties<const D: usize, I: Interpolation<D>>(
 ) -> Vec<Penalty> {
     let grid = functions_of.grid();
     let rule: Vec<(f64, f64)> = gauss(functions_of.points()).collect();
-    let cells = grid.axes.map(|axis| axis.cells);
+    let elements: [usize; D] = std::array::from_fn(|a| grid.axes[a].cells / I::span()[a]);
+    let lengths = I::span().map(|cells| cells as f64 * grid.h);
     let mut found = Vec::new();
     let mut functions = Functions::new();
-    for k in 0..cells.iter().product() {
+    for k in 0..elements.iter().product() {
         let mut rest = k;
         let mut corner = [0.0; D];
         for a in (0..D).rev() {
-            corner[a] = grid.axes[a].lo + grid.h * (rest % cells[a]) as f64;
-            rest /= cells[a];
+            corner[a] = grid.axes[a].lo + lengths[a] * (rest % elements[a]) as f64;
+            rest /= elements[a];
         }
         let size = functions_of.support() * D;
         let mut stiffness = DMatrix::zeros(size, size);
         for q in 0..rule.len().pow(D as u32) {
-            let mut weight = factor * grid.h.powi(D as i32);
+            let mut weight = factor * lengths.iter().product::<f64>();
             let x: [f64; D] = std::array::from_fn(|a| {
                 let (t, w) = rule[q / rule.len().pow(a as u32) % rule.len()];
                 weight *= w;
-                corner[a] + t * grid.h
+                corner[a] + t * lengths[a]
             });
             functions_of.functions(&x, &[0.0; D], &mut functions);
             moduli.add_stiffness(&functions.dw, weight, &mut stiffness);

@@ -16,7 +16,7 @@ type GivenEdge<const N: usize> = (Edge, Setup<Cantilever>, [Vec<f64>; N]);
 fn given_edge<const N: usize>(given: &Given, columns: [&Asked; N]) -> Result<GivenEdge<N>, Error> {
     let setup = Setup::<Cantilever>::of_spec(&given.spec, &given.parameters)?;
     let edge = Edge::new(&setup);
-    let order = given.in_order([&START_X, &START_Y], &edge.references, setup.spacing())?;
+    let order = given.in_order([&START_X, &START_Y], &edge.references, setup.h / setup.points_per_direction as f64)?;
     let ordered = columns.map(|column| {
         let values = given.column(column);
         order.iter().map(|k| values[*k]).collect()

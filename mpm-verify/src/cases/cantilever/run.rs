@@ -4,7 +4,7 @@ use super::edge::{Edge, extremes};
 use super::*;
 use crate::cases::checks::newton_rate;
 use crate::cases::observe::displacement;
-use mpm_core::implicit::Settings;
+use mpm_core::implicit::{Serendipity, Settings};
 use mpm_core::material::{Hypoelastic, JaumannUpdate};
 use mpm_core::stage::BodyForce;
 use mpm_solvers::implicit;
@@ -21,19 +21,18 @@ const WEIGHT_OVER_MODULUS: RangeInclusive<f64> = 1e-9..=ROOM.1 / (LENGTH * LENGT
 /// Density (kg/m³) of the weight; nothing moves.
 const DENSITY: f64 = 1000.0;
 
-/// Coordinates (m) of the particles along an axis of `cells` cells of size `h` (m).
-fn along(cells: usize, h: f64, per_cell: usize, gauss: bool) -> Vec<f64> {
+/// Coordinates (m) of `count` particles along an axis, which stand for `spacing` (m) each.
+fn along(count: usize, spacing: f64, gauss: bool) -> Vec<f64> {
     let offset = 0.5 - 0.5 / 3.0_f64.sqrt();
-    let spacing = h / per_cell as f64;
     let place = |k: usize| match (gauss, k % 2) {
         (false, _) => spacing * (k as f64 + 0.5),
         (true, 0) => spacing * (k as f64 + 2.0 * offset),
         (true, _) => spacing * (k as f64 + 1.0 - 2.0 * offset),
     };
-    (0..cells * per_cell).map(place).collect()
+    (0..count).map(place).collect()
 }
 
-/// Number of cells of size `h` (m) along a length (m).
+/// Number of pieces of size `h` (m) along a length (m).
 fn cells(length: f64, h: f64) -> usize {
     (length / h - 1e-9).ceil() as usize
 }
@@ -42,22 +41,28 @@ fn cells(length: f64, h: f64) -> usize {
 pub(super) const VOLUME: f64 = LENGTH * DEPTH;
 
 impl Setup<Cantilever> {
-    /// Distance (m) of particles that are equally far apart.
-    pub(super) fn spacing(&self) -> f64 {
-        self.h / self.points_per_direction as f64
+    /// Length and depth (m) of an element: a cell, or a serendipity element of 2 by 3 cells.
+    fn element(&self) -> [f64; 2] {
+        if self.basis() == Q8 { Serendipity::SPAN.map(|cells| cells as f64 * self.cell()) } else { [self.h; 2] }
+    }
+
+    /// Cell size (m) of the grid.
+    fn cell(&self) -> f64 {
+        if self.basis() == Q8 { self.h / Serendipity::SPAN[0] as f64 } else { self.h }
     }
 
     /// Particles along the length and the depth.
     pub(super) fn counts(&self) -> [usize; 2] {
-        [LENGTH, DEPTH].map(|length| cells(length, self.h) * self.points_per_direction)
+        let [length, depth] = self.element();
+        [cells(LENGTH, length), cells(DEPTH, depth)].map(|elements| elements * self.points_per_direction)
     }
 
     /// Initial positions (m) of the particles, column by column.
     pub(super) fn seed(&self) -> Vec<[f64; 2]> {
-        let (h, per_cell) = (self.h, self.points_per_direction);
+        let per_cell = self.points_per_direction;
         // One of an odd number stands in the middle either way.
         let gauss = self.points == Points::Gauss && per_cell.is_multiple_of(2);
-        let [xs, ys] = [LENGTH, DEPTH].map(|l| along(cells(l, h), h, per_cell, gauss));
+        let [xs, ys] = [0, 1].map(|a| along(self.counts()[a], self.element()[a] / per_cell as f64, gauss));
         let column = |x: &f64| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>();
         self.start_at(xs.iter().flat_map(column))
     }
@@ -74,12 +79,16 @@ impl Setup<Cantilever> {
     }
 
     fn with<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-        let (h, spacing) = (self.h, self.spacing());
+        let (h, element) = (self.cell(), self.element());
+        let per_cell = self.points_per_direction as f64;
+        let volume = element[0] * element[1] / (per_cell * per_cell);
+        // Whole elements.
+        let count = |axis: usize, length: f64| cells(length, element[axis]) * (element[axis] / h).round() as usize;
         let (beyond, below, above) = ROOM;
-        let lower = cells(below, h);
-        let along = Axis::bounded(0.0, cells(LENGTH + beyond, h), (Side::Wall, Side::Open));
-        let up = Axis::open(-h * lower as f64, lower + cells(DEPTH + above, h));
-        let particles = Particles::new(self.seed(), spacing * spacing, DENSITY, [0.5 * spacing; 2])?;
+        let lower = count(1, below);
+        let along = Axis::bounded(0.0, count(0, LENGTH + beyond), (Side::Wall, Side::Open));
+        let up = Axis::open(-h * lower as f64, lower + count(1, DEPTH + above));
+        let particles = Particles::new(self.seed(), volume, DENSITY, [0.5 * h / per_cell; 2])?;
         let weight = self.weight / DENSITY;
         let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
             .constrain(clamp(0, End::Lo))
