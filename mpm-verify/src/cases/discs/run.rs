@@ -1,4 +1,4 @@
-//! Scene and observations of the discs, four times a second at the paper's speed.
+//! Scene and observations of the discs, four times a second at the paper's speed, as often at others.
 
 use super::flight::until_met;
 use super::*;
@@ -19,7 +19,11 @@ const STEP: f64 = 0.0025;
 const DURATION: f64 = 37.5;
 /// Duration (s) with an offset, after which centres that fly freely are half a metre beyond each other.
 const DURATION_ASIDE: f64 = 95.0;
-const AT_SPEED: f64 = 0.005;
+pub(super) const AT_SPEED: f64 = 0.005;
+/// Way of a disc along each axis before rims touch (m).
+const WAY_TO_TOUCH: f64 = 0.3 - 0.2 * std::f64::consts::FRAC_1_SQRT_2;
+/// Times in which a wave crosses a disc and comes back, from the touch to the end of a fast run: a few contacts.
+const CROSSINGS: f64 = 5.0;
 
 /// Paper's steps in a row.
 const ROW: f64 = 100.0;
@@ -35,15 +39,18 @@ impl Setup<Discs> {
         particles as f64 * (1000.0 * self.h.powi(2) / f64::from(ppc))
     }
 
-    /// Way of a free disc in a run, along each axis (m).
-    fn way(&self) -> f64 {
+    /// Duration (s): that of the same way at another speed, and no less than fast discs need to part.
+    fn duration(&self) -> f64 {
         let lasts = if self.offset > 0.0 { DURATION_ASIDE } else { DURATION };
-        lasts * AT_SPEED
+        let (e, nu) = (self.young_modulus, self.poisson_ratio);
+        let wave_speed = (e * (1.0 - nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)) / DENSITY).sqrt();
+        let contact = CROSSINGS * 4.0 * RADIUS / wave_speed;
+        (lasts * AT_SPEED / self.speed).max(WAY_TO_TOUCH / self.speed + contact)
     }
 
     /// Time step (s) and number of steps.
     pub(super) fn timing(&self) -> (f64, u64) {
-        let duration = self.way() / self.speed;
+        let duration = self.duration();
         let dt = STEP * (self.h / CELL) * self.step_factor.value();
         (dt, (duration / dt).ceil() as u64)
     }
@@ -96,6 +103,9 @@ pub(super) struct Extremes {
     /// The stored energy of the last step (J), and the most that a step changed it by.
     stored: f64,
     exchanged: f64,
+    /// The relative velocity (m/s) of the last step, and the most that a step changed it by.
+    relative: Option<[f64; 2]>,
+    kick: f64,
     /// Largest change of a velocity, and of a volume, in free flight.
     flight: [f64; 2],
     rows: u64,
@@ -183,6 +193,9 @@ impl Collision {
         seen.closest = seen.closest.min(self.distance(run));
         seen.exchanged = seen.exchanged.max((s - seen.stored).abs() / whole);
         seen.stored = s;
+        let [before, now] = [seen.relative.unwrap_or(start.relative), sums.relative];
+        seen.kick = seen.kick.max((now[0] - before[0]).hypot(now[1] - before[1]));
+        seen.relative = Some(now);
         if self.free.is_none_or(|free| run.time() <= free) {
             let now = self.flight(run);
             seen.flight = [0, 1].map(|i| seen.flight[i].max(now[i]));
@@ -210,6 +223,8 @@ impl Problem<2> for Collision {
     fn new(setup: Setup<Discs>) -> Result<Self, Error> {
         setup.check_rule()?;
         let (dt, steps) = setup.timing();
+        let why = "m: a disc that moves by more than a cell in a step flies through the other";
+        require_quotient("speed times the time step of step_factor", setup.speed * dt, 0.0..=setup.h, why)?;
         let half = setup.seed().len() / 2;
         let free = until_met(&setup, steps as f64 * dt);
         Ok(Self { setup, steps, half, free })
@@ -225,7 +240,8 @@ impl Problem<2> for Collision {
 
     fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let h = self.setup.h;
-        let beyond = self.setup.way() - DURATION * AT_SPEED + self.setup.aside();
+        let way = self.setup.duration() * self.setup.speed;
+        let beyond = way - DURATION * AT_SPEED + self.setup.aside();
         let room = (ROOM / h).round() + (beyond / h).ceil();
         let cells = (SIDE / h).round() + 2.0 * room;
         let grid = Grid::new(h, [Axis::open(-room * h, cells as usize); 2])?;
@@ -242,8 +258,8 @@ impl Problem<2> for Collision {
     fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
         let start = *seen.start.get_or_insert_with(|| self.sums(phase.run.as_ref()));
         let finer = CELL / self.setup.h;
-        let steps = (ROW * finer / self.setup.step_factor.value()).round() as u64;
-        let steps = steps.min(self.steps - seen.steps);
+        let paper = ROW * finer / self.setup.step_factor.value() * (AT_SPEED / self.setup.speed);
+        let steps = (paper.round() as u64).max(1).min(self.steps - seen.steps);
         let before = phase.run.work().newton_iterations;
         for _ in 0..steps {
             phase.steps(1)?;
@@ -295,6 +311,7 @@ impl Problem<2> for Collision {
         let work = run.work();
         let [before, after] = [start.relative, sums.relative];
         let closing = before[0].hypot(before[1]);
+        let turned = (after[0] - before[0]).hypot(after[1] - before[1]);
         let mut values = vec![
             (ENERGY_GAIN, seen.gain),
             (ENERGY_LOSS, seen.loss),
@@ -306,7 +323,8 @@ impl Problem<2> for Collision {
             (ANGULAR_MOMENTUM_ERROR, seen.angular.max(LEAST)),
             (ENERGY_EXCHANGED, seen.exchanged),
             (RESTITUTION, after[0].hypot(after[1]) / closing),
-            (DEFLECTION, (after[0] - before[0]).hypot(after[1] - before[1]) / closing),
+            (DEFLECTION, turned / closing),
+            (IMPULSE_OF_A_STEP, seen.kick / turned.max(closing)),
             (FLIGHT_ERROR, seen.flight[0].max(LEAST)),
             (FLIGHT_STRAIN, seen.flight[1].max(LEAST)),
             (ASYMMETRY, self.asymmetry(run).max(LEAST_ASYMMETRY)),
