@@ -108,10 +108,19 @@ fn weight(r: &Run<()>) -> f64 {
     r.values.number(DENSITY) * r.values.number(GRAVITY)
 }
 
+/// Whether the pressure ρ c v of the motion is as large as what the pressure at the floor may be off.
+fn rings(r: &Run<()>) -> bool {
+    let speed = (2.0 * r.metric(KINETIC_ENERGY_PEAK) / r.metric(MASS)).sqrt();
+    let sound = r.values.number(CFL) * r.h / r.dt();
+    sound * speed > 0.25 * r.h * r.values.number(GRAVITY)
+}
+
 fn checks() -> Vec<Check> {
     vec![
         mass(),
         Gate::truth("base-pressure", "pressure at the floor ρ g H within the hydrostatic pressure of a quarter cell")
+            .unless(|r| (weight(r) == 0.0).then(|| "nothing has weight".to_owned()))
+            .unless(|r| rings(r).then(|| "the column rings, and with it the pressure".to_owned()))
             .unless(|r| {
                 let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
                 creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())

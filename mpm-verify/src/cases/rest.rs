@@ -3,7 +3,7 @@
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
 use super::manufactured::*;
-use super::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
+use super::parameters::{DENSITY, POISSON_RATIO, WALL, WALL_LINE, YOUNG_MODULUS};
 use crate::cases::prelude::*;
 use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
@@ -52,9 +52,9 @@ pub(super) fn case() -> Case {
     .limit("The layer is endless: no toe, no crest. Elastic: what a yielding slope creeps by is not here.")
     .anew()
     .wanted("place", "largest distance of a particle from its place of rest", "stays")
-    .missed_by("cubic-out-of-balance pressure-relaxes")
+    .missed_by("out-of-balance pressure-relaxes")
     .wanted("pressure", "mean pressure at the foot", "base-pressure")
-    .missed_by("cubic-out-of-balance pressure-relaxes")
+    .missed_by("out-of-balance pressure-relaxes")
     .checks(checks())
     .headline(DISPLACEMENT_L2, "rms distance from rest (m)", 1.0, 6)
     .headline(J_DRIFT_PER_1E5_STEPS, "drift of J̄ per 10⁵ steps (–)", 1.0, 6)
@@ -79,7 +79,7 @@ fn table(name: &str, set: &'static str) -> ResultTable {
 fn checks() -> Vec<Check> {
     vec![
         mass(),
-        Gate::truth("stays", "distance of every particle from rest at most h² u″/8, u″ = ρ g sin θ/μ")
+        Gate::truth("stays", "distance of every particle from rest at most h² |u″|/8, of ρ g sin θ/μ along and ρ g cos θ/M across")
             .at_most(DISPLACEMENT_LINF, interpolation)
             .because("what piecewise linear functions leave of a displacement that is quadratic in depth"),
         Gate::truth("base-pressure", "mean pressure at the foot (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
@@ -90,16 +90,17 @@ fn checks() -> Vec<Check> {
             .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
         Gate::truth("no-growth", "GIMP and quadratic splines, all but fbar-recursive: peak kinetic energy of the last third at most twice that of the middle third, and rounding")
             .when(is_sound)
+            .unless(|r| r.metric(KINETIC_GROWTH).is_nan().then(|| "nothing moves, or not for three rows".to_owned()))
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
         Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
             .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
-        Gate::known_limit("cubic-out-of-balance", "cubic splines: distance of a particle from rest above the bound of stays")
-            .when(|r| r.basis() == Bspline3)
+        Gate::known_limit("out-of-balance", "cubic splines, and all on the wall's line: distance of a particle from rest above the bound of stays")
+            .when(is_out_of_balance)
             .above(DISPLACEMENT_LINF, interpolation)
-            .because("two particles a direction don't integrate cubic splines at a foot that a stress acts on"),
+            .because("two particles a direction don't integrate cubic splines, or those that a wall cuts, at a foot that a stress acts on"),
         Gate::known_limit("pressure-relaxes", "fbar-recursive: pressure at the foot within a twentieth of its mean over the height, half the exact value")
             .when(|r| r.remedy() == FbarRecursive)
             .within(BASE_PRESSURE, |r| 0.5 * base_pressure(r), |r| 0.05 * base_pressure(r))
@@ -112,12 +113,21 @@ fn is_sound(r: &Run<()>) -> bool {
     r.remedy() != FbarRecursive && r.basis() != Bspline3
 }
 
-/// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ (1/m).
+/// Whether the foot's layer of functions is integrated too badly to rest.
+fn is_out_of_balance(r: &Run<()>) -> bool {
+    r.basis() == Bspline3 || r.basis() == Bspline2 && r.values.is(WALL, WALL_LINE)
+}
+
+/// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ along the slope
+/// and ρ g cos θ/M across it (1/m).
 fn interpolation(r: &Run<()>) -> f64 {
     let number = |p| r.values.number(p);
     let shear = 0.5 * number(YOUNG_MODULUS) / (1.0 + number(POISSON_RATIO));
-    let force = number(DENSITY) * number(GRAVITY) * number(INCLINATION).to_radians().sin();
-    r.h.powi(2) * (force / shear) / 8.0
+    let ratio = number(POISSON_RATIO);
+    let oedometric = shear * 2.0 * (1.0 - ratio) / (1.0 - 2.0 * ratio);
+    let (along, across) = number(INCLINATION).to_radians().sin_cos();
+    let weight = number(DENSITY) * number(GRAVITY);
+    r.h.powi(2) * weight * (along / shear).hypot(across / oedometric) / 8.0
 }
 
 /// Mean pressure at the foot (Pa).

@@ -228,6 +228,7 @@ fn checks() -> Vec<Check> {
             .because("the pressure drives it with no more than itself"),
         Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy above its start at most 2 % of the peak kinetic one, half a step and initial sound")
             .when(|r| matches!(r.remedy(), RemedyName::None | FbarConsistent) && r.rule() != Some(RuleName::Newmark))
+            .unless(|r| (frequency(&r.values) * r.dt() > 1.0).then(|| "a step is longer than a radian of the wave".to_owned()))
             .at_most(ENERGY_GAIN, |_| 0.02)
             .because("the force takes what is stored"),
     ]

@@ -42,10 +42,19 @@ fn breaks_beside_the_plan(case: &Case, record: &Record) -> Option<&'static str> 
     if record.status == Status::Ok || case.plans(record) {
         return None;
     }
-    let cfl = case.parameters.iter().find(|p| p.name == "cfl");
-    let is_long = cfl.is_some_and(|cfl| record.parameters.number(*cfl) > STABLE_CFL);
-    let is_explicit = matches!(record.scheme(), Scheme::Explicit(_));
-    (is_long && is_explicit).then_some("a CFL number above 0.5: such steps are stable for some layouts only")
+    let holds = |name: &str, of: fn(f64) -> bool| {
+        let parameter = case.parameters.iter().find(|p| p.name == name);
+        parameter.is_some_and(|p| of(record.parameters.number(*p)))
+    };
+    match record.scheme() {
+        Scheme::Explicit(_) if holds("cfl", |cfl| cfl > STABLE_CFL) => {
+            Some("a CFL number above 0.5: such steps are stable for some layouts only")
+        }
+        Scheme::Implicit(_) if holds("lumped", |share| share == 0.0) => {
+            Some("a consistent mass is singular where a function sees few particles")
+        }
+        _ => None,
+    }
 }
 
 /// Whether the run came to its end: a check of every case.

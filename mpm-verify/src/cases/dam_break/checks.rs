@@ -40,9 +40,10 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
         return None;
     }
     let gimp = run.basis() == Gimp;
-    // On coarse cells quadratic splines, and on the coarsest fbar-rate with small steps, make energy too, but keep the
-    // water in the tank.
-    let keeps_it = run.remedy() == FbarRate && run.h > COARSE && run.has_small_steps();
+    // On coarse cells quadratic splines, and on the coarsest fbar-rate with small steps in a slippery tank, make energy
+    // too, but keep the water in it.
+    let keeps_it =
+        run.remedy() == FbarRate && run.h > COARSE && run.has_small_steps() && run.wall_contact == Contact::Separable;
     let leaves_it = gimp && !keeps_it || run.is_flip() && run.is_fine();
     if run.has_to_make_energy() && leaves_it {
         return Some(MAKES_ENERGY);

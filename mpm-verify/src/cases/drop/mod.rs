@@ -58,6 +58,11 @@ metrics! { ALL:
 pub(super) fn case() -> Case {
     Case::of::<2, run::Falling>("drop", "A block bounces", ALL)
         .planned(plan())
+        .breaks_down(|r| {
+            let block = Setup::<Drop>::of_record(r).ok()?;
+            (!block.is_implicit() && block.crosses_the_barrier())
+                .then_some("a step takes particles further than a barrier as stiff as this lets them")
+        })
         .described("An elastic block falls on a floor with a barrier and friction, at an angle, and bounces: no energy is gained, no gap \
             closes, friction is Coulomb's, over the barrier's stiffness and the step.")
         .reference("Conservation of momentum and energy, Coulomb's law.")

@@ -27,6 +27,11 @@ impl Setup<Motion> {
         self.porosity * self.young_modulus / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
     }
 
+    /// Pressure and weight of a metre of water over Young's modulus.
+    pub(super) fn load(&self) -> f64 {
+        (self.pressure + DENSITIES[0] * self.gravity) / self.young_modulus
+    }
+
     /// The solver's law and conductivity.
     fn own(&self) -> Result<(ImprovedHencky, Conductivity), mpm_core::Error> {
         let (porosity, kappa) = (self.porosity, self.kappa());
@@ -113,6 +118,8 @@ where
 
     fn new(setup: Setup<Motion>) -> Result<Self, Error> {
         setup.own()?;
+        let closed = std::f64::consts::TAU * setup.amplitude / setup.porosity;
+        require_quotient("2π amplitude over porosity", closed, 0.0..=1.0, "1/m: beyond, the motion closes its pores")?;
         Ok(Self { solution: setup.solution(), setup })
     }
 

@@ -10,7 +10,7 @@ const YOUNG_MODULUS: f64 = 1e6;
 const DENSITY: f64 = 1000.0;
 /// Share of the bar that the front crosses, and shares of its way between which the state is taken.
 pub(super) const WAY: f64 = 0.7;
-const BEHIND: [f64; 2] = [0.1, 0.8];
+pub(super) const BEHIND: [f64; 2] = [0.1, 0.8];
 /// Shares of the jump that bound the width of a front.
 const FRONT: [f64; 2] = [0.05, 0.95];
 /// Rows of the series.
@@ -109,6 +109,9 @@ impl Problem<1> for Bar {
         let damping = setup.linear_viscosity + 2.0 * setup.quadratic_viscosity * setup.mach;
         let shorter = damping.hypot(1.0) + damping;
         let dt = courant_time_step(setup.cfl / shorter, setup.h, waves);
+        let pressed = speed * dt / setup.h * setup.basis().degree() as f64;
+        let why = "the strain of the first step at the wall, beyond which it may turn particles inside out";
+        require_quotient("degree times cfl times mach", pressed, 0.0..=0.9, why)?;
         let steps = (WAY * LENGTH / jump.speed / dt).ceil() as u64;
         Ok(Self { setup, law, speed, dt, steps, jump })
     }
