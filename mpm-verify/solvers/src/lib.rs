@@ -182,7 +182,11 @@ implicit_solvers!(2, NewtonianFluid, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Latti
 implicit_solvers!(1, NewtonianFluid, []);
 implicit_solvers!(3, NewtonianFluid, []);
 implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
-implicit_solvers!(2, HenckyJ2, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Lattice<2, 3, QuadraticBSpline>]);
+implicit_solvers!(2, HenckyJ2, [
+    Linear: Lattice<2, 2, Linear>,
+    Gimp: Lattice<2, 3, Gimp>,
+    Bspline2: Lattice<2, 3, QuadraticBSpline>
+]);
 implicit_solvers!(2, HypoelasticJ2, [Gimp: Lattice<2, 3, Gimp>]);
 implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
 

@@ -157,6 +157,9 @@ fn differs_in_step(r: &Record) -> bool {
     r.changes_only("cfl") && r.remedy() != FbarRecursive
 }
 
+/// The paper's kind of damping, with time for it.
+const LOCALLY: &str = "damping=0.75 kinetic_damping=false max_periods=5";
+
 fn plan() -> Plan {
     let none = RemedyName::None;
     let three = [Gimp, Bspline2, Bspline3];
@@ -190,6 +193,16 @@ fn plan() -> Plan {
         .runs(Nightly, "h1", &two(&[FbarTotal, FbarRate]), "load_at=edge")
         .runs(Nightly, "h1", &quadratic(&[none, FbarRate]), "wall=wall-line")
         .runs(Nightly, "h1", &gimp(&[FbarRate]), "rest_window=1 max_periods=5")
+        // Readings of the paper's Figure 6: a stop at the first peak of the kinetic energy, and its kind of damping.
+        .runs(Nightly, "h1 h0.5", &two(&[FbarRecursive]), "max_periods=0.25")
+        .runs(Nightly, "h1", &two(&[none, FbarRecursive, FbarTotal, FbarConsistent]), LOCALLY)
+        .each(Nightly, "h1", &averaged[..1], ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"])
+        .each(
+            Nightly,
+            "h1",
+            &gimp(&[FbarRecursive]),
+            ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"],
+        )
         .runs(Long, "h0.25", &pairs(&three, &[FbarRecursive]), "")
         .runs(Long, "h0.25", &two(&[FbarTotal]), "cfl=0.6")
         .runs(Long, "h0.25", &pairs(&[Bspline3], &[none, FbarTotal, FbarRate]), "cfl=0.6")

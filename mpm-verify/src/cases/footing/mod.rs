@@ -161,6 +161,12 @@ fn own_runs(records: &[Record]) -> Vec<&Record> {
     }
 }
 
+/// Five times the penetration, through either contact.
+const DEEP: [&str; 2] = [
+    "domain_width=3 domain_depth=3 penetration=0.02",
+    "domain_width=3 domain_depth=3 penetration=0.02 contact=barrier",
+];
+
 fn plan() -> Plan {
     let none = RemedyName::None;
     let both = |remedies: &[RemedyName]| pairs(&[Gimp, Bspline2], remedies);
@@ -183,6 +189,10 @@ fn plan() -> Plan {
         .runs(Nightly, "b20", &cubic, "")
         .runs(Nightly, "b40", &three, "")
         .runs(Nightly, "b20", &three, "contact=barrier")
+        .runs(Nightly, "b10", &three, "contact=barrier")
+        .runs(Long, "b40", &three, "contact=barrier")
+        // Whether standard splines blow up, far beyond the limit load.
+        .each(Nightly, "b10", &both(&[none])[1..], DEEP)
         .runs(Nightly, "b10", &rates, "penetration_rate=4e-3")
         .runs(Nightly, "b10", &rates, "penetration_rate=1e-3")
         .runs(Nightly, "b10", &both(&[none, FbarRate, FbarConsistent]), ELASTIC)

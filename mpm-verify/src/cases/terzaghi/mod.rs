@@ -89,6 +89,7 @@ fn plan() -> Plan {
         .runs(Nightly, "n20", &linear, "first_step=0.016 steps=80 time_end=1")
         .runs(Nightly, "n160", &linear, "first_step=1.024 steps=80 time_end=1")
         .each(Pr, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
+        .each(Pr, "n20", &linear[2..], SHARES.map(|r| format!("projection=0.1 first_step={r} steps=1")))
         .each(Nightly, "n20", &gimp, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Pr, "n80", &linear, [5, 10, 20, 80].map(|n| format!("steps={n}")))
 }
@@ -169,6 +170,12 @@ fn tables() -> Vec<ResultTable> {
             r.level == "n20" && steps(r) == 1.0 && r.changes_none_but(&["steps", "first_step"])
         })
         .by(&[SCHEME])
+        .columns(Column::over(shares.clone(), share, OVERSHOOT_FIRST_STEP, percent(2))),
+        ResultTable::of("terzaghi-projection", move |r| {
+            let single = r.level == "n20" && steps(r) == 1.0;
+            single && r.scheme() == Scheme::poro(Linear, Ppp)
+        })
+        .by(&[("τ / standard", |r| Setup::<Terzaghi>::number_of(r, |c| c.projection).to_string())])
         .columns(Column::over(shares, share, OVERSHOOT_FIRST_STEP, percent(2))),
         ResultTable::of("terzaghi-steps", |r| r.level == "n80" && r.changes_none_but(&["steps"]))
             .by(&[SCHEME])
