@@ -24,30 +24,23 @@ choices! {
 
 parameters! { pub(super) const:
     CFL = "cfl", "-", "0.4", number(1e-3, 1.0, true), "CFL number c Δt / h of pressure waves";
-    TIME_STEP = "time_step", "-", "cfl", Domain::Choice(&["cfl", AUTO]),
-        "cfl: by the CFL number; auto, explicit: the step that is stable however particles lie, of all but linear functions";
+    TIME_STEP = "time_step", "-", "cfl", Domain::Choice(&["cfl", AUTO]), "cfl: by the CFL number; auto, explicit: the step that is stable however particles lie, of all but linear functions";
     FLIP = "flip", "-", "1", number(0.0, 1.0, false), "PIC/FLIP blend η: 1 is FLIP";
     DAMPING = "damping", "-", "0", number(0.0, 1.0, true), "local damping factor";
-    LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false),
-        "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings behind a shock";
+    LINEAR_VISCOSITY = "linear_viscosity", "-", "0", number(0.0, 10.0, false), "coefficient c₁ of the linear artificial viscosity: 0.5 takes what rings behind a shock";
     WALL = "wall", "-", "open-knot", Domain::Choice(&["open-knot", WALL_LINE]), "how B-splines meet walls";
     PPC_PER_DIRECTION = "ppc_per_direction", "-", "2", Domain::Integer { least: 2, most: 4 },
         "particles per cell and direction";
     LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
         "equal steps of the load";
-    STEP_SCALING = "step_scaling", "-", "h", Domain::Choice(&["h", "h2"]),
-        "h: the time step shrinks with h; h2: with h², from the one at eight cells per side";
+    STEP_SCALING = "step_scaling", "-", "h", Domain::Choice(&["h", "h2"]), "h: the time step shrinks with h; h2: with h², from the one at eight cells per side";
 }
 
 parameters! { pub(super) const:
-    LUMPED = "lumped", "-", "0.1", number(0.0, 1.0, false),
-        "midpoint: share β of the lumped mass, the rest is consistent";
-    ALPHA = "alpha", "-", "0.25", number(0.0, 2.0, false),
-        "newmark: α, at least (δ + ½)²/4";
-    DELTA = "delta", "-", "0.5", number(0.5, 2.0, false),
-        "newmark: δ, at least ½";
-    TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-8, false),
-        "implicit: residual of a converged step over the loads";
+    LUMPED = "lumped", "-", "0.1", number(0.0, 1.0, false), "midpoint: share β of the lumped mass, the rest is consistent";
+    ALPHA = "alpha", "-", "0.25", number(0.0, 2.0, false), "newmark: α, at least (δ + ½)²/4";
+    DELTA = "delta", "-", "0.5", number(0.5, 2.0, false), "newmark: δ, at least ½";
+    TOLERANCE = "tolerance", "-", "1e-10", number(1e-13, 1e-8, false), "implicit: residual of a converged step over the loads";
 }
 
 /// Those that the implicit solvers of bodies that move have.

@@ -54,8 +54,7 @@ metrics! { ALL:
         "rms error of the displacement over its exact rms; with apic and xpic2, or without a strain, of all particles, else of those three cells inside";
     VELOCITY_ERROR = "velocity_error", "-", "relative error of the velocity, half a step before the end of an explicit run; with xpic2 of what its filter leaves";
     STRESS_ERROR = "stress_error", "-", "relative error of the stress, where there is a strain";
-    STRAIN_OF_WAVES = "strain_of_waves", "-",
-        "share of the strain that the stress may add or take in the duration, docs/patch.md";
+    STRAIN_OF_WAVES = "strain_of_waves", "-", "share of the strain that the stress may add or take in the duration, docs/patch.md";
     DAMPED_RATIO = "damped_ratio", "-", "work of damping over the exact one, without a strain";
     MASS = "mass", "kg", "mass of the body, per metre in plane strain";
 }

@@ -66,8 +66,7 @@ impl Exact for CompressibleWave {
 }
 
 parameters! { const:
-    BULK_MODULUS = "bulk_modulus", "Pa", "2.5e6", number(1e4, 1e12, false),
-        "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed";
+    BULK_MODULUS = "bulk_modulus", "Pa", "2.5e6", number(1e4, 1e12, false), "bulk modulus K; sound then travels at √(K/ρ), 50 m/s unless changed";
 }
 
 /// ω of the wave (rad/s); NaN of parameters that make none.

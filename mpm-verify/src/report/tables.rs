@@ -314,4 +314,23 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
         }
         assert!(missing("docs/others.md").contains("no page shows the table"));
     }
+
+    #[test]
+    fn every_column_of_every_page_says_something() {
+        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+        let mut empty = Vec::new();
+        for page in std::fs::read_dir(docs).unwrap().map(|entry| entry.unwrap().path()) {
+            let text = if page.is_file() { std::fs::read_to_string(&page).unwrap() } else { String::new() };
+            for table in text.split(BEGIN).skip(1) {
+                let (name, rest) = table.split_once(" -->").unwrap();
+                let rows = rest.lines().take_while(|l| !l.starts_with(END)).filter(|l| l.starts_with('|'));
+                let rows: Vec<Vec<&str>> = rows.map(|l| l.split(" | ").collect()).collect();
+                let says =
+                    |k: usize| rows.iter().skip(2).any(|row| !["", "–"].contains(&row[k].trim_matches(['|', ' '])));
+                let columns = rows.first().map_or(0, Vec::len);
+                empty.extend((0..columns).filter(|k| !says(*k)).map(|k| format!("{name}: {}", rows[0][k])));
+            }
+        }
+        assert_eq!(empty, Vec::<String>::new());
+    }
 }

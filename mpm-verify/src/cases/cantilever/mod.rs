@@ -34,59 +34,45 @@ choices! {
 parameters! {
     /// Parameters of the cantilever.
     pub(super) struct Cantilever {
-        law: LawName = LawName::Hencky.by_default(),
-            "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
+        law: LawName = LawName::Hencky.by_default(), "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0");
         weight: f64 = real("N/m³", "4000", 1.0, 1e6), "weight of the initial volume at the end";
         load_steps: i32 = common::LOAD_STEPS.with_default("20"), "equal steps of the weight";
-        points_per_direction: usize = whole("-", "4", 2, 8),
-            "particles per cell and direction; of one, in the middle, what alternates from node to node has no strain";
+        points_per_direction: usize = whole("-", "4", 2, 8), "particles per cell and direction; of one, in the middle, what alternates from node to node has no strain";
         points: Points = Points::Uniform.by_default(),
             "where particles start: in the middle of equal parts of a cell, or, the paper's subdivision, two Gauss points in each half of their number";
         stabilisation: Stabilised = Stabilised::Ghost.by_default(), "what holds functions that see hardly any material";
-        stabilisation_factor: f64 = real("-", "0.01", 1e-8, 1.0),
-            "of ghost its share of Young's modulus, of soft that of the stiffness of the mesh";
+        stabilisation_factor: f64 = real("-", "0.01", 1e-8, 1.0), "of ghost its share of Young's modulus, of soft that of the stiffness of the mesh";
         tolerance: f64 = real("-", "1e-9", 1e-13, 1e-8), "residual of a converged step over the loads";
     }
 }
 
 metrics! { OWN:
-    CORNER_UX = "corner_ux", "m",
-        "u_x of the lower right corner, (1, 0) m, extrapolated linearly from the nearest particles";
+    CORNER_UX = "corner_ux", "m", "u_x of the lower right corner, (1, 0) m, extrapolated linearly from the nearest particles";
     CORNER_UY = "corner_uy", "m", "u_y of the lower right corner, by the same extrapolation";
-    EDGE_MEAN_UX = "edge_mean_ux", "m",
-        "u_x averaged over the right side, extrapolated from the last two columns of particles";
+    EDGE_MEAN_UX = "edge_mean_ux", "m", "u_x averaged over the right side, extrapolated from the last two columns of particles";
     EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y averaged over the right side, by the same extrapolation";
-    CORNER_ERROR = "corner_error", "-",
-        "distance of corner_uy from the reference over the reference";
+    CORNER_ERROR = "corner_error", "-", "distance of corner_uy from the reference over the reference";
     EDGE_MEAN_ERROR = "edge_mean_error", "-", "distance of edge_mean_uy from the reference over the reference";
     STRESS_MIN = "stress_min", "Pa", "least σ_xx at a particle: compression";
     STRESS_MAX = "stress_max", "Pa", "greatest σ_xx at a particle: tension";
-    STRESS_ERROR = "stress_error", "-",
-        "rms distance of σ_xx from the reference at six points near the clamp, over the rms of the reference";
+    STRESS_ERROR = "stress_error", "-", "rms distance of σ_xx from the reference at six points near the clamp, over the rms of the reference";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
-    NEWTON_RATE = "newton_rate", "-",
-        "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
+    NEWTON_RATE = "newton_rate", "-", "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
     CUTS = "cut_steps", "-", "load steps that were taken in parts";
-    LOG10_CONDITION = "log10_condition", "-",
-        "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";
-    FORCE_RATIO = "force_ratio", "-",
-        "largest out-of-balance force ratio of a step, the paper's Eq. (37); the tolerance, if it is less";
-    FORCE_ROUNDING = "force_rounding", "-",
-        "largest such ratio that rounding of the stresses by four last bits may leave: Newton's method asks for no less";
-    ENERGY_RATIO = "energy_ratio", "-",
-        "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); the tolerance, if it is less";
-    REACTION_ERROR = "reaction_error", "-",
-        "distance of the clamp's reaction from the weight over the weight; the tolerance, if it is less";
+    LOG10_CONDITION = "log10_condition", "-", "log₁₀ of the estimated condition, in the 1-norm, of the stiffness at the end, scaled to a diagonal of ones";
+    FORCE_RATIO = "force_ratio", "-", "largest out-of-balance force ratio of a step, the paper's Eq. (37); the tolerance, if it is less";
+    FORCE_ROUNDING = "force_rounding", "-", "largest such ratio that rounding of the stresses by four last bits may leave: Newton's method asks for no less";
+    ENERGY_RATIO = "energy_ratio", "-", "largest work of a step's residual on its last correction over that of the loads, for the paper's Eq. (38); the tolerance, if it is less";
+    REACTION_ERROR = "reaction_error", "-", "distance of the clamp's reaction from the weight over the weight; the tolerance, if it is less";
     MASS = "mass", "kg/m", "mass of the beam";
 }
 
 metrics! {
     /// σ_xx at material points (m).
     STRESSES at [f64; 2]:
-    [0.1, 0.05] => "stress_xx_0.1_0.05", "Pa",
-        "σ_xx at the material point (0.1, 0.05) m, by a linear fit over the particles within h";
+    [0.1, 0.05] => "stress_xx_0.1_0.05", "Pa", "σ_xx at the material point (0.1, 0.05) m, by a linear fit over the particles within h";
     [0.1, 0.15] => "stress_xx_0.1_0.15", "Pa", "σ_xx at the material point (0.1, 0.15) m, by the same fit";
     [0.1, 0.25] => "stress_xx_0.1_0.25", "Pa", "σ_xx at the material point (0.1, 0.25) m, by the same fit";
     [0.2, 0.05] => "stress_xx_0.2_0.05", "Pa", "σ_xx at the material point (0.2, 0.05) m, by the same fit";
@@ -103,7 +89,7 @@ pub(super) fn case() -> Case {
             finite elements; the paper's serendipity elements don't converge.")
         .references(crate::exact::cantilever::describe())
         .limit("The corners of the clamp are singular points: the greatest stresses grow without bound under refinement.")
-        .limit("Serendipity elements are the paper's, for this case alone.")
+        .limit("Serendipity elements are the paper's, h by 1.5 h, for this case alone.")
         .wanted("deflection", "u_y of the corner under the whole weight", "corner")
         .missed_by("coarse-bending no-stabilisation")
         .wanted("stress", "σ_xx at six points near the clamp", "stress")
@@ -140,7 +126,7 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
     if c.stabilisation == Stabilised::None {
         return Some("without stabilisation functions at the rim see fewer strains than they have unknowns");
     }
-    (c.basis() == Q8 && c.load_steps > 20).then_some("particles of serendipity elements leave the body")
+    (c.basis() == Q8 && c.load_steps > 40).then_some("particles of serendipity elements leave the body")
 }
 
 fn plan() -> Plan {
@@ -191,7 +177,13 @@ fn plan() -> Plan {
         // The paper's elements, points, law and stabilisation: Figures 2 to 4.
         .runs(Nightly, "h0.1", &q8, &paper)
         .runs(Nightly, "h0.1", &q8, &format!("{linear_gauss} stabilisation=none"))
-        .each(Nightly, "h0.1", &q8, ["0.1", "0.001", "0.0001"].map(|f| format!("{paper} stabilisation_factor={f}")))
+        .each(
+            Nightly,
+            "h0.1",
+            &q8,
+            ["0.1", "0.001", "0.0001", "0.00001"].map(|f| format!("{paper} stabilisation_factor={f}")),
+        )
+        .runs(Nightly, "h0.1", &q8, &format!("{paper} load_steps=40 stabilisation_factor=0.0001"))
         .each(
             Nightly,
             "h0.1",

@@ -26,13 +26,10 @@ const PRESSURE_GHOST: Parameter = PressureGhost::Conductivity.by_default().named
 parameters! {
     /// Parameters of the half ellipse.
     struct Ellipse {
-        alpha: f64 = real("-", "0.1", 0.0, 10.0),
-            "strength of both ghost penalties: of the displacement's over G, of the pressure's over its conductivity";
+        alpha: f64 = real("-", "0.1", 0.0, 10.0), "strength of both ghost penalties: of the displacement's over G, of the pressure's over its conductivity";
         positions: usize = whole("-", "40", 4, 400), "places of the body within one cell of the pressure";
-        mobility: f64 = real("-", "1e-6", 1e-12, 1e3),
-            "κ Δt G/h_p² of the whole matrix, h_p the pressure's cell: small where hardly any water flows";
-        pressure_ghost: PressureGhost = PRESSURE_GHOST,
-            "what the whole matrix's ghost penalty of the pressure is over: κ Δt, or κ Δt + h_p²/G";
+        mobility: f64 = real("-", "1e-6", 1e-12, 1e3), "κ Δt G/h_p² of the whole matrix, h_p the pressure's cell: small where hardly any water flows";
+        pressure_ghost: PressureGhost = PRESSURE_GHOST, "what the whole matrix's ghost penalty of the pressure is over: κ Δt, or κ Δt + h_p²/G";
     }
 }
 
@@ -47,10 +44,8 @@ metrics! { ALL:
     COND_SCALED = "log10_cond_scaled", "-", "log10 of the condition number of the whole matrix scaled to a diagonal of ones, largest over every fourth place";
     SOFTEST_UU = "softest_uu", "-", "least eigenvalue of the displacement's matrix over G, least over the places";
     SOFTEST_PP = "softest_pp", "-", "least eigenvalue of the pressure's matrix over its conductivity, least over the places";
-    MIRROR_ERROR = "mirror_error", "-",
-        "largest difference of log10 of the displacement's condition number between a place and its mirror image";
-    DEFLECTION_CHANGE = "deflection_change", "-",
-        "change by α of the mean deflection, under its weight, of a cantilever of eight cells that fits the grid";
+    MIRROR_ERROR = "mirror_error", "-", "largest difference of log10 of the displacement's condition number between a place and its mirror image";
+    DEFLECTION_CHANGE = "deflection_change", "-", "change by α of the mean deflection, under its weight, of a cantilever of eight cells that fits the grid";
 }
 
 pub(super) fn case() -> Case {

@@ -34,10 +34,8 @@ choices! {
 parameters! {
     /// Parameters of the column.
     struct Consolidation {
-        load: f64 = real("-", "0.3", 1e-4, 2.0),
-            "load q over the oedometric modulus M₀ of the undeformed column; the reference has 0.003, 0.3 and 1";
-        refine: i32 = whole("-", "4", 1, 64),
-            "steps that each of the 125 is cut into; the reference of steps has 1, 2, 4 and 8";
+        load: f64 = real("-", "0.3", 1e-4, 2.0), "load q over the oedometric modulus M₀ of the undeformed column; the reference has 0.003, 0.3 and 1";
+        refine: i32 = whole("-", "4", 1, 64), "steps that each of the 125 is cut into; the reference of steps has 1, 2, 4 and 8";
         volume_rate: Rate = VOLUME_RATE, "what a step's volume changes by over its start: J̃ − 1, or J̃ ln J̃";
         drain: f64 = real("-", "1e4", 10.0, 1e6), "what the drained top lets through for its pressure, over κ₀/h";
         ghost_displacement: f64 = real("-", "0", 0.0, 10.0), "ghost penalty of the displacement over G";
@@ -48,20 +46,15 @@ parameters! {
 }
 
 metrics! { ALL:
-    SETTLEMENT_ERROR = "settlement_error", "-",
-        "largest relative error of the settlement at the tabulated T from 0.1 on; none at a load that has no reference";
+    SETTLEMENT_ERROR = "settlement_error", "-", "largest relative error of the settlement at the tabulated T from 0.1 on; none at a load that has no reference";
     SETTLEMENT_ERROR_STEPS = "settlement_error_steps", "-",
         "largest relative error of the settlement against the exact solution in space of the same backward Euler steps: the error of space alone";
-    BASE_PRESSURE_ERROR = "base_pressure_error", "-",
-        "largest error there of the pressure at the base, over the load";
-    BASE_PRESSURE_ERROR_STEPS = "base_pressure_error_steps", "-",
-        "largest error of the pressure at the base, over the load, against the exact solution in space of the same steps";
+    BASE_PRESSURE_ERROR = "base_pressure_error", "-", "largest error there of the pressure at the base, over the load";
+    BASE_PRESSURE_ERROR_STEPS = "base_pressure_error_steps", "-", "largest error of the pressure at the base, over the load, against the exact solution in space of the same steps";
     SETTLEMENT_EARLY = "settlement_0.1", "-", "settlement over H at T = 0.1";
     SETTLEMENT_END = "settlement_end", "-", "settlement over H at T = 2";
-    MASS_ERROR = "mass_error", "-",
-        "change of the volume and outflow together, over the outflow; 10⁻⁹ if it is less, which no golden should hold";
-    RATE_LOSS = "rate_loss", "-",
-        "½ Σ V (J̃ − 1)² of all particles and steps over the outflow: what the logarithmic rate loses to leading order";
+    MASS_ERROR = "mass_error", "-", "change of the volume and outflow together, over the outflow; 10⁻⁹ if it is less, which no golden should hold";
+    RATE_LOSS = "rate_loss", "-", "½ Σ V (J̃ − 1)² of all particles and steps over the outflow: what the logarithmic rate loses to leading order";
     VOLUME_STEP = "volume_step", "-", "largest |J̃ − 1| of a particle in a step";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     ENTRIES = "matrix_entries", "-", "entries of a matrix, on average";

@@ -29,8 +29,7 @@ parameters! {
         poisson_ratio: f64 = POISSON_RATIO;
         density: f64 = common::DENSITY.with_default("1"), "density ρ; the state of rest does not depend on it";
         load: f64 = real("N/m", "1", 1e-12, 1e12), "total upward dead load on the right side, per metre of depth";
-        load_ramp: f64 = real("periods", "0.08", 0.0, 10.0),
-            "time over which the load grows, in fundamental periods";
+        load_ramp: f64 = real("periods", "0.08", 0.0, 10.0), "time over which the load grows, in fundamental periods";
         load_at: LoadAt = LoadAt::Column.by_default(),
             "column: the last column of particles carries the load, at x = 48 m − h/4 for two particles per direction; edge: the last two columns carry 3/2 and −1/2 of it, whose resultant then acts on x = 48 m";
         damping: f64 = common::DAMPING;
@@ -38,26 +37,21 @@ parameters! {
         cfl: f64 = common::CFL.with_default("0.3");
         flip: f64 = common::FLIP;
         wall: common::Wall = common::WALL, "how B-splines meet the clamped side";
-        max_periods: f64 = real("periods", "2", 1e-3, 1e3),
-            "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
+        max_periods: f64 = real("periods", "2", 1e-3, 1e3), "longest time to run, in fundamental periods of 60 s (at the default E and ρ); a run that creeps after one is stopped there";
         rest_window: f64 = real("periods", "0.05", 1e-3, 10.0), "time over which the criterion of rest must hold";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
-        load_steps: i32 = common::LOAD_STEPS,
-            "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved";
-        ghost: f64 = real("-", "1e-8", 0.0, 1.0),
-            "quasi-static: ghost penalty, in shares of Young's modulus; the root of rounding, which only keeps the matrix regular; 0: none";
+        load_steps: i32 = common::LOAD_STEPS, "quasi-static: steps of the load, which rises smoothly over them; one that finds no equilibrium is halved";
+        ghost: f64 = real("-", "1e-8", 0.0, 1.0), "quasi-static: ghost penalty, in shares of Young's modulus; the root of rounding, which only keeps the matrix regular; 0: none";
     }
 }
 
 metrics! { OWN:
-    MID_EDGE_UY = "mid_edge_uy", "m",
-        "u_y of the middle of the right side, (48, 52) m, by a linear fit over the particles within 2h";
+    MID_EDGE_UY = "mid_edge_uy", "m", "u_y of the middle of the right side, (48, 52) m, by a linear fit over the particles within 2h";
     EDGE_MEAN_UY = "edge_mean_uy", "m", "u_y averaged over the right side, from such fits at eight points";
     TIP_UY = "tip_uy", "m", "u_y of the upper right corner, (48, 60) m, by such a fit";
     TIP_UY_NEAREST = "tip_uy_nearest", "m", "u_y of the particle nearest to that corner";
     TIP_UX = "tip_ux", "m", "u_x of that corner, by the fit";
-    MEAN_STRESS_RMS_ERROR = "mean_stress_rms_error", "Pa",
-        "rms over particles with x > 3 m, 3 m away from the clamped corners, of the mean normal stress minus the reference";
+    MEAN_STRESS_RMS_ERROR = "mean_stress_rms_error", "Pa", "rms over particles with x > 3 m, 3 m away from the clamped corners, of the mean normal stress minus the reference";
     MEAN_STRESS_RMS = "mean_stress_rms", "Pa", "rms over all particles of the mean normal stress";
     CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over all particles of σ_m − Πσ_m";
     CHECKERBOARD_RATIO = "checkerboard_ratio", "-", "checkerboard_rms over mean_stress_rms";
@@ -66,21 +60,16 @@ metrics! { OWN:
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     AT_REST = "at_rest", "-", "1 if the criterion of rest was met, 0 if the run was stopped without";
     REST_TIME = "rest_time", "s", "time at the end of the run";
-    WORK_RESIDUAL = "work_residual", "-",
-        "largest out-of-balance virtual work over the last window, relative to that of the load";
+    WORK_RESIDUAL = "work_residual", "-", "largest out-of-balance virtual work over the last window, relative to that of the load";
     REACTION_UY = "reaction_uy", "N/m", "vertical reaction of the clamped side";
     MASS = "mass", "kg/m", "mass of the particles";
     SEEDED_VOLUME = "seeded_volume", "m²", "reference volume of the particles; the membrane's is 1,440 m²";
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest kinetic energy + stress work + losses − load work over the run, relative to the final load work";
-    ENERGY_LOSS = "energy_loss", "-",
-        "largest excess of the load's work over that of the load: dissipation of the transfer";
+    ENERGY_GAIN = "energy_gain", "-", "largest kinetic energy + stress work + losses − load work over the run, relative to the final load work";
+    ENERGY_LOSS = "energy_loss", "-", "largest excess of the load's work over that of the load: dissipation of the transfer";
     PERIOD = "period", "s", "nominal fundamental period";
-    REACTION_ERROR = "reaction_error", "-",
-        "quasi-static: distance of the clamp's reaction from the load over the load; 10⁻⁹ if it is less";
+    REACTION_ERROR = "reaction_error", "-", "quasi-static: distance of the clamp's reaction from the load over the load; 10⁻⁹ if it is less";
     NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton iterations of all steps";
-    LINEAR_ITERATIONS = "linear_iterations", "-",
-        "quasi-static: solutions by factors, with F̄ iterations of conjugate gradients";
+    LINEAR_ITERATIONS = "linear_iterations", "-", "quasi-static: solutions by factors, with F̄ iterations of conjugate gradients";
     FEM_MID_EDGE_ERROR = "fem_mid_edge_error", "-", "relative error of mid_edge_uy";
     FEM_EDGE_MEAN_ERROR = "fem_edge_mean_error", "-", "relative error of edge_mean_uy";
     FEM_TIP_ERROR = "fem_tip_error", "-", "relative error of tip_uy";
@@ -89,8 +78,7 @@ metrics! { OWN:
 metrics! {
     /// The mean normal stress at material points (m).
     MEAN_STRESSES at [f64; 2]:
-    [24.0, 36.0] => "mean_stress_24_36", "Pa",
-        "mean normal stress at the material point (24, 36) m, by a linear fit";
+    [24.0, 36.0] => "mean_stress_24_36", "Pa", "mean normal stress at the material point (24, 36) m, by a linear fit";
     [16.0, 30.0] => "mean_stress_16_30", "Pa", "mean normal stress at (16, 30) m, by the same fit";
     [36.0, 48.0] => "mean_stress_36_48", "Pa", "mean normal stress at (36, 48) m, by the same fit";
     [24.0, 24.0] => "mean_stress_24_24", "Pa", "mean normal stress at (24, 24) m, by the same fit";

@@ -25,10 +25,8 @@ parameters! {
         dimension: usize = whole("-", "2", 1, 3), "dimensions of the lattice";
         layout: Layout = Layout::Aligned.by_default(),
             "particles in the middle of their shares; off it by up to a quarter of them, in every cell alike; or aligned, with a free end that reaches over a grid line by `cut`";
-        cut: f64 = real("-", "0.01", 1e-6, 0.2),
-            "of the layout cut: how far, in cells, the outermost functions see the first particle";
-        stretch: f64 = real("-", "1", 0.3, 3.0),
-            "J of the body at the start, by a stretch along the axis; other than 1 in one dimension alone";
+        cut: f64 = real("-", "0.01", 1e-6, 0.2), "of the layout cut: how far, in cells, the outermost functions see the first particle";
+        stretch: f64 = real("-", "1", 0.3, 3.0), "J of the body at the start, by a stretch along the axis; other than 1 in one dimension alone";
         linear_viscosity: f64 = common::LINEAR_VISCOSITY;
         steps: i32 = whole("-", "400", 100, 1_000_000), "steps of a trial";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 4 });
@@ -39,12 +37,10 @@ parameters! {
 metrics! { ALL:
     CRITICAL_CFL = "critical_cfl", "-",
         "largest CFL number c Δt/h, c of the state of the start, at which noise does not grow a hundredfold within the steps; below one, which the program refuses to exceed";
-    PREDICTED_CFL = "predicted_cfl", "-",
-        "the same by linear analysis; zero where a mean stress feeds a wave whatever the step";
+    PREDICTED_CFL = "predicted_cfl", "-", "the same by linear analysis; zero where a mean stress feeds a wave whatever the step";
     FED_CFL = "fed_cfl", "-",
         "where a mean stress feeds a wave: the CFL number at which the fastest grows from a fiftieth of its share of the noise to a hundred times the noise within the steps";
-    OFFERED_CFL = "offered_cfl", "-",
-        "CFL number of the step that time_step=auto takes of a case that offers it";
+    OFFERED_CFL = "offered_cfl", "-", "CFL number of the step that time_step=auto takes of a case that offers it";
 }
 
 pub(super) fn case() -> Case {

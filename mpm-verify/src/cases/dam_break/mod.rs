@@ -35,17 +35,13 @@ parameters! {
         density: f64 = real("kg/m³", "997.5", 1e-3, 1e5), "density ρ without pressure";
         viscosity: f64 = real("Pa s", "0.001", 0.0, 1e6), "dynamic viscosity μ";
         duration: f64 = real("s", "2", 0.01, 10.0), "time after the removal of the gate";
-        start: Rest = Rest::Exact.by_default(),
-            "how the water comes to rest behind the gate: exactly, or by gravity that rises from zero, with damping";
-        wall_contact: Contact = Contact::Separable.by_default(),
-            "whether water comes off the walls freely or they bear tension; it slides freely along either";
-        cfl: f64 = CFL,
-            "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m";
+        start: Rest = Rest::Exact.by_default(), "how the water comes to rest behind the gate: exactly, or by gravity that rises from zero, with damping";
+        wall_contact: Contact = Contact::Separable.by_default(), "whether water comes off the walls freely or they bear tension; it slides freely along either";
+        cfl: f64 = CFL, "largest CFL number c Δt / h of pressure waves; Δt is a whole fraction of 0.005 s, 10⁻⁵ s at h = 0.25 m";
         pic_rate: f64 = PIC_RATE, "share of PIC per unit of time, r: η = exp(−r Δt); 0 is FLIP";
         wall: common::Wall = common::WALL, "how B-splines meet floor and walls";
         ppc_per_direction: usize = whole("-", "5", 2, 8), "particles per cell and direction";
-        seed: i32 = whole("-", "0", 0, 1000),
-            "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one";
+        seed: i32 = whole("-", "0", 0, 1000), "which member of an ensemble whose starts differ in last bits; 0 is the undisturbed one";
     }
 }
 
@@ -56,33 +52,25 @@ metrics! { ALL:
     BACK_FORCE = "back_force", "N/m", "force on the back wall, mean over the same time as base_reaction_ratio";
     BASE_PRESSURE = "base_pressure", "Pa",
         "pressure at the floor behind the gate, one step from the exact start or after the gravity stage, by a line through the particles of the lower half";
-    PRESSURE_PROFILE_ERROR = "pressure_profile_error", "-",
-        "rms over the particles of the pressure less the hydrostatic one, over that at the floor, then";
-    START_KINETIC_ENERGY = "start_kinetic_energy", "J/m",
-        "kinetic energy behind the gate when the forces have been measured";
+    PRESSURE_PROFILE_ERROR = "pressure_profile_error", "-", "rms over the particles of the pressure less the hydrostatic one, over that at the floor, then";
+    START_KINETIC_ENERGY = "start_kinetic_energy", "J/m", "kinetic energy behind the gate when the forces have been measured";
     FRONT_X_EARLY = "front_x_0.4s", "m", "outermost particle and half its spacing, 0.4 s after the removal";
-    FRONT_RMS_ERROR = "front_rms_error", "m",
-        "rms distance of the front from the inviscid one, t √(g/H) from 0.2 to 0.9";
-    FRONT_SPEED_MAX = "front_speed_max", "m/s",
-        "largest speed of the front until it is two cells off the wall";
+    FRONT_RMS_ERROR = "front_rms_error", "m", "rms distance of the front from the inviscid one, t √(g/H) from 0.2 to 0.9";
+    FRONT_SPEED_MAX = "front_speed_max", "m/s", "largest speed of the front until it is two cells off the wall";
     ARRIVAL_TIME = "arrival_time", "s", "when the front is two cells off the wall";
     ARRIVAL_ERROR = "arrival_error", "s", "distance of that time from the inviscid one";
-    BACK_LEVEL_EARLY = "back_level_0.4s", "m",
-        "highest particle within a cell of the back wall and half its spacing, at 0.4 s";
-    ENERGY_RATIO = "energy_ratio", "-",
-        "kinetic and potential energy and stress work at 0.4 s over those at the start";
+    BACK_LEVEL_EARLY = "back_level_0.4s", "m", "highest particle within a cell of the back wall and half its spacing, at 0.4 s";
+    ENERGY_RATIO = "energy_ratio", "-", "kinetic and potential energy and stress work at 0.4 s over those at the start";
     ENERGY_RATIO_2S = "energy_ratio_2s", "-", "kinetic and potential energy and stress work at 2 s over those at the start";
     ENERGY_GAIN = "energy_gain", "-", "largest growth of that energy in 0.005 s, over its start";
     ENERGY_EXCESS = "energy_excess", "-", "largest excess of it over its start, relative";
     MOTION_RATIO_2S = "motion_ratio_2s", "-", "kinetic and potential energy at 2 s over those at the start";
-    MOTION_EXCESS = "motion_excess", "-",
-        "largest excess of kinetic and potential energy over their start, relative";
+    MOTION_EXCESS = "motion_excess", "-", "largest excess of kinetic and potential energy over their start, relative";
     MOTION_LOSS = "motion_loss", "-", "largest loss of them, over their start";
     PRESSURE_RMS = "pressure_rms", "Pa", "rms over the particles of the pressure at 0.4 s";
     CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over the particles of p − Πp at 0.4 s";
     TENSION_SHARE = "tension_share", "-", "share of the particles in tension at 0.4 s";
-    COVERED_EARLY = "covered_0.4s", "m²",
-        "area under the highest particles at 0.4 s, in strips two particles wide";
+    COVERED_EARLY = "covered_0.4s", "m²", "area under the highest particles at 0.4 s, in strips two particles wide";
     CENTRE_X_EARLY = "centre_x_0.4s", "m", "centre of mass at 0.4 s";
     CENTRE_X_MEAN = "centre_x_mean", "m", "centre of mass, mean over 2 s";
     CENTRE_Y_MEAN = "centre_y_mean", "m", "height of the centre of mass, mean over 2 s";

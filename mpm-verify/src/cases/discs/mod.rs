@@ -48,10 +48,8 @@ parameters! {
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
         speed: f64 = real("m/s", "0.005", 1e-4, 1.0),
             "each component of the velocities, of opposite signs; the run lasts 37.5 s at 0.005 m/s, less in proportion, and at least until discs part";
-        offset: f64 = real("m", "0", 0.0, 0.8),
-            "distance of the lines on which the discs' centres fly; beyond 0.4 the discs don't touch";
-        step_factor: StepFactor = StepFactor::One.by_default(),
-            "time step over 2.5 ms at h = 0.05 m, and in proportion to h; explicit: 1";
+        offset: f64 = real("m", "0", 0.0, 0.8), "distance of the lines on which the discs' centres fly; beyond 0.4 the discs don't touch";
+        step_factor: StepFactor = StepFactor::One.by_default(), "time step over 2.5 ms at h = 0.05 m, and in proportion to h; explicit: 1";
         flip: f64 = common::FLIP;
         lumped: f64 = common::LUMPED;
         alpha: f64 = common::ALPHA;
@@ -63,35 +61,24 @@ parameters! {
 }
 
 metrics! { ALL:
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest rise of kinetic and stored energy over their start, relative to it";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy over their start, relative to it";
     ENERGY_LOSS = "energy_loss", "-", "largest fall of kinetic and stored energy below their start, relative to it";
     ENERGY_END = "energy_end", "-", "rise of kinetic and stored energy at the end over their start, relative to it";
     ENERGY_ERROR_ACCUMULATED = "energy_error_accumulated", "-",
         "largest distance from the start of kinetic energy and accumulated stress work, the paper's Eqs. (34) to (36), relative to it";
-    LUMPING_LOSS = "lumping_loss", "-",
-        "midpoint: what particles don't take of the nodes' kinetic energy as part of the mass is lumped, over the energy at the start";
-    NODE_ENERGY_GAP = "node_energy_gap", "-",
-        "largest kinetic energy that particles have beyond their nodes, over the energy at the start";
-    MOMENTUM_ERROR = "momentum_error", "-",
-        "largest change of the linear momentum, over the sum of its magnitudes at the start; 10⁻¹² if it is less, which no golden should hold";
+    LUMPING_LOSS = "lumping_loss", "-", "midpoint: what particles don't take of the nodes' kinetic energy as part of the mass is lumped, over the energy at the start";
+    NODE_ENERGY_GAP = "node_energy_gap", "-", "largest kinetic energy that particles have beyond their nodes, over the energy at the start";
+    MOMENTUM_ERROR = "momentum_error", "-", "largest change of the linear momentum, over the sum of its magnitudes at the start; 10⁻¹² if it is less, which no golden should hold";
     ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-",
         "largest change of the angular momentum about the centre, that of affine parts with it, over that sum times 0.4 m; 10⁻¹² if it is less";
-    ENERGY_EXCHANGED = "energy_exchanged", "-",
-        "largest change of the stored energy in a step, over the energy at the start";
-    RESTITUTION = "restitution", "-",
-        "speed at which the discs' centres of mass move against each other at the end, over that at the start";
-    DEFLECTION = "deflection", "-",
-        "change of the velocity at which they do, over its start: 2 of discs that bounce back, 0 of discs that miss each other";
-    IMPULSE_OF_A_STEP = "impulse_of_a_step", "-",
-        "largest change of that velocity in a step over the change of the whole run, or its start if more: one over the steps of a contact";
-    FREE_UNTIL = "free_until", "s",
-        "last time at which no node would see both discs if they flew freely, if they ever meet";
-    FLIGHT_ERROR = "flight_error", "-",
-        "until then, or to the end, the largest change of a particle's velocity, over its speed; 10⁻¹² if it is less";
+    ENERGY_EXCHANGED = "energy_exchanged", "-", "largest change of the stored energy in a step, over the energy at the start";
+    RESTITUTION = "restitution", "-", "speed at which the discs' centres of mass move against each other at the end, over that at the start";
+    DEFLECTION = "deflection", "-", "change of the velocity at which they do, over its start: 2 of discs that bounce back, 0 of discs that miss each other";
+    IMPULSE_OF_A_STEP = "impulse_of_a_step", "-", "largest change of that velocity in a step over the change of the whole run, or its start if more: one over the steps of a contact";
+    FREE_UNTIL = "free_until", "s", "last time at which no node would see both discs if they flew freely, if they ever meet";
+    FLIGHT_ERROR = "flight_error", "-", "until then, or to the end, the largest change of a particle's velocity, over its speed; 10⁻¹² if it is less";
     FLIGHT_STRAIN = "flight_strain", "-", "largest |J − 1| of a particle over the same time; 10⁻¹² if it is less";
-    ASYMMETRY = "asymmetry", "-",
-        "largest distance at the end of a particle from where its mirror image about the centre is, over the radius; 10⁻⁹ if it is less";
+    ASYMMETRY = "asymmetry", "-", "largest distance at the end of a particle from where its mirror image about the centre is, over the radius; 10⁻⁹ if it is less";
     CLOSEST = "closest", "m", "least distance of the discs' centres of mass";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     MASS = "mass", "kg/m", "mass of both discs";

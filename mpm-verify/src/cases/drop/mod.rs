@@ -23,12 +23,9 @@ parameters! {
         speed: f64 = real("-", "0.02", 1e-4, 0.3), "speed at which the block falls, over that of waves";
         slant: f64 = real("-", "1", -10.0, 10.0), "speed along the floor over that";
         friction: f64 = real("-", "0.3", 0.0, 10.0), "coefficient of friction";
-        stiffness: f64 = real("-", "1", 1e-3, 1e4),
-            "stiffness of the barrier over that which carries the stress of the impact, ρ c v, at half of its distance";
-        cfl: f64 = common::CFL.with_default("0.2"),
-            "CFL number c Δt / h of pressure waves, explicit; times step_factor of implicit steps";
-        step_factor: StepFactor = StepFactor::One.by_default(),
-            "implicit: time step over that of the CFL number; explicit: 1";
+        stiffness: f64 = real("-", "1", 1e-3, 1e4), "stiffness of the barrier over that which carries the stress of the impact, ρ c v, at half of its distance";
+        cfl: f64 = common::CFL.with_default("0.2"), "CFL number c Δt / h of pressure waves, explicit; times step_factor of implicit steps";
+        step_factor: StepFactor = StepFactor::One.by_default(), "implicit: time step over that of the CFL number; explicit: 1";
         lumped: f64 = common::LUMPED;
         alpha: f64 = common::ALPHA;
         delta: f64 = common::DELTA;
@@ -39,17 +36,13 @@ parameters! {
 }
 
 metrics! { ALL:
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest rise of kinetic and stored energy over the kinetic energy at the start, the barrier's left out, which is not negative";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy over the kinetic energy at the start, the barrier's left out, which is not negative";
     ENERGY_END = "energy_end", "-", "kinetic and stored energy at the end, over the same";
     STORED_MOST = "stored_most", "-", "most of the stored energy, over the same";
-    LEAST_GAP = "least_gap", "-",
-        "least gap of a particle over the distance at which the barrier begins";
-    COULOMB_EXCESS = "coulomb_excess", "-",
-        "most by which the force along the floor exceeds μ times the one across it, over the greatest force across it";
+    LEAST_GAP = "least_gap", "-", "least gap of a particle over the distance at which the barrier begins";
+    COULOMB_EXCESS = "coulomb_excess", "-", "most by which the force along the floor exceeds μ times the one across it, over the greatest force across it";
     FRICTION_RATIO = "friction_ratio", "-", "impulse along the floor over that across it, over μ";
-    MOMENTUM_ERROR = "momentum_error", "-",
-        "largest change of the momentum of body and floor together, over that of the body at the start; 10⁻¹² if it is less";
+    MOMENTUM_ERROR = "momentum_error", "-", "largest change of the momentum of body and floor together, over that of the body at the start; 10⁻¹² if it is less";
     RESTITUTION = "restitution", "-", "speed at which the block leaves the floor at the end over that of its fall";
     SPIN = "spin", "-", "speed of turning at the end, of the middle of a side, over that of the fall";
     NEWTON_ITERATIONS = "newton_iterations", "-", "implicit: Newton iterations of all steps";

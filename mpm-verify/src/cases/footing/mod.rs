@@ -31,8 +31,7 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS;
         poisson_ratio: f64 = common::POISSON_RATIO;
         density: f64 = common::DENSITY, "density ρ; it only matters for how slowly the footing must move";
-        undrained_strength: f64 = real("Pa", "100", 1e-6, 1e12),
-            "undrained shear strength s_u of plane strain: the ground yields at ‖s‖ = √2 s_u";
+        undrained_strength: f64 = real("Pa", "100", 1e-6, 1e12), "undrained shear strength s_u of plane strain: the ground yields at ‖s‖ = √2 s_u";
         domain_width: i32 = whole("B", "6", 2, 40), "width of the right half of the ground, in widths of the footing";
         domain_depth: i32 = whole("B", "6", 1, 40), "depth of the ground, in widths of the footing";
         penetration_rate: f64 = PENETRATION_RATE;
@@ -42,41 +41,31 @@ parameters! {
         cfl: f64 = common::CFL;
         flip: f64 = common::FLIP;
         wall: common::Wall = common::WALL, "how B-splines meet the sides and the base";
-        contact: Contact = Contact::RigidNodes.by_default(),
-            "how the footing presses: nodes that move with it, or a barrier on particles that come near it";
+        contact: Contact = Contact::RigidNodes.by_default(), "how the footing presses: nodes that move with it, or a barrier on particles that come near it";
         rough: bool = flag(true), "whether the ground sticks to the footing; if not, it slides freely";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
-        load_steps: i32 = common::LOAD_STEPS.with_default("16"),
-            "quasi-static: equal steps of the penetration; one that finds no equilibrium is halved";
+        load_steps: i32 = common::LOAD_STEPS.with_default("16"), "quasi-static: equal steps of the penetration; one that finds no equilibrium is halved";
         tolerance: f64 = common::TOLERANCE.with_default("1e-8");
     }
 }
 
 metrics! { OWN:
-    NC_B = "nc_b", "-",
-        "bearing capacity factor q/s_u with the pressure q = F/(B/2), mean over the last quarter of the penetration";
-    NC_B_PLUS_H = "nc_b_plus_h", "-",
-        "bearing capacity factor with q = F/((B + h)/2): a footing of held nodes on grid lines ends between a held and a free node";
+    NC_B = "nc_b", "-", "bearing capacity factor q/s_u with the pressure q = F/(B/2), mean over the last quarter of the penetration";
+    NC_B_PLUS_H = "nc_b_plus_h", "-", "bearing capacity factor with q = F/((B + h)/2): a footing of held nodes on grid lines ends between a held and a free node";
     NC_EFFECTIVE = "nc_effective", "-",
         "bearing capacity factor with the effective width of the held nodes: B for quadratic splines, whose nodes lie in the middle of cells, B + h for GIMP, B + h/2 for cubic ones";
-    PRANDTL_ERROR = "prandtl_error", "-",
-        "relative distance of nc_b from 2 + π: the error of the contact pressure";
+    PRANDTL_ERROR = "prandtl_error", "-", "relative distance of nc_b from 2 + π: the error of the contact pressure";
     NC_PEAK = "nc_peak", "-", "largest q/s_u of the run, by B";
-    PLATEAU_RISE = "plateau_rise", "-",
-        "relative growth of the load per 10⁻³ of s/B over the last quarter of the penetration";
-    ELASTIC_SLOPE = "elastic_slope", "-",
-        "d(q/s_u)/d(s/B) by B, a straight line fitted to all rows after the start; elastic in runs of great strength";
-    FORCE_IMBALANCE = "force_imbalance", "-",
-        "force on the base over that on the footing, less one, mean over the last quarter: inertia";
+    PLATEAU_RISE = "plateau_rise", "-", "relative growth of the load per 10⁻³ of s/B over the last quarter of the penetration";
+    ELASTIC_SLOPE = "elastic_slope", "-", "d(q/s_u)/d(s/B) by B, a straight line fitted to all rows after the start; elastic in runs of great strength";
+    FORCE_IMBALANCE = "force_imbalance", "-", "force on the base over that on the footing, less one, mean over the last quarter: inertia";
     MECHANISM_WIDTH = "mechanism_width", "B",
         "half the width of the ground that rises while the footing sinks: where the surface rises by half of what it does in Prandtl's mechanism (Hill's, if smooth)";
-    HEAVE = "heave", "-",
-        "mean rise of the surface from 0.75 B to 1.25 B while the footing sinks by one: one half in Prandtl's mechanism";
+    HEAVE = "heave", "-", "mean rise of the surface from 0.75 B to 1.25 B while the footing sinks by one: one half in Prandtl's mechanism";
     MEAN_STRESS_RMS = "mean_stress_rms", "Pa", "rms over all particles of the mean normal stress";
     CHECKERBOARD_RMS = "checkerboard_rms", "Pa", "rms over all particles of σ_m − Πσ_m";
     CHECKERBOARD_RATIO = "checkerboard_ratio", "-", "checkerboard_rms over mean_stress_rms";
-    OSCILLATION_RATIO = "oscillation_ratio", "-",
-        "rms of the mean normal stress less its plane of best fit in each square of 2h, over mean_stress_rms";
+    OSCILLATION_RATIO = "oscillation_ratio", "-", "rms of the mean normal stress less its plane of best fit in each square of 2h, over mean_stress_rms";
     PLASTIC_STRAIN_MAX = "plastic_strain_max", "-", "largest equivalent plastic strain of a particle";
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
     MASS = "mass", "kg/m", "mass of the particles";

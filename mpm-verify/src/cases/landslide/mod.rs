@@ -31,12 +31,9 @@ parameters! {
     struct Landslide {
         young_modulus: f64 = slope::YOUNG_MODULUS;
         poisson_ratio: f64 = slope::POISSON_RATIO;
-        peak_strength: f64 = real("Pa", "40.82e3", 1.0, 1e12),
-            "peak strength κ_p = ‖s‖, √2 times the undrained shear strength";
-        residual_strength: f64 = real("Pa", "2.45e3", 1e-3, 1e12),
-            "residual strength κ_r = ‖s‖; at most the reduced peak";
-        softening: f64 = real("-", "5", 0.0, 1e3),
-            "softening coefficient η of κ = κ_r + (κ_p − κ_r) exp(−η ε)";
+        peak_strength: f64 = real("Pa", "40.82e3", 1.0, 1e12), "peak strength κ_p = ‖s‖, √2 times the undrained shear strength";
+        residual_strength: f64 = real("Pa", "2.45e3", 1e-3, 1e12), "residual strength κ_r = ‖s‖; at most the reduced peak";
+        softening: f64 = real("-", "5", 0.0, 1e3), "softening coefficient η of κ = κ_r + (κ_p − κ_r) exp(−η ε)";
         reduction: f64 = REDUCTION;
         release: f64 = real("s", "0", 0.0, 60.0), "time over which that factor rises from one; 0: at once";
         density: f64 = slope::DENSITY;
@@ -49,8 +46,7 @@ parameters! {
         cfl: f64 = slope::CFL;
         wall: common::Wall = slope::WALL;
         ppc_per_direction: usize = slope::PPC_PER_DIRECTION;
-        width: f64 = real("m", "0", 0.0, 1000.0),
-            "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";
+        width: f64 = real("m", "0", 0.0, 1000.0), "width, a whole number of cells; 0 stands for that of the level: 5 m, of a slice four cells";
     }
 }
 
@@ -58,41 +54,30 @@ metrics! { ALL:
     PARTICLES = "particles", "-", "number of particles";
     PARTICLES_ACROSS = "particles_across", "-", "of them across the width";
     MASS = "mass", "kg/m", "mass at the end, per metre of width";
-    BASE_REACTION_RATIO = "base_reaction_ratio", "-",
-        "force on the base over the weight, in the last 0.01 s of the gravity stage";
-    KINETIC_SHARE_AT_REST = "kinetic_share_at_rest", "-",
-        "kinetic energy of the nodes over the stored energy at the end of the gravity stage";
-    OVERBURDEN_ERROR = "overburden_error", "-",
-        "rms over the particles within H/2 of the back wall of the vertical stress less the weight above, over γ H, then";
+    BASE_REACTION_RATIO = "base_reaction_ratio", "-", "force on the base over the weight, in the last 0.01 s of the gravity stage";
+    KINETIC_SHARE_AT_REST = "kinetic_share_at_rest", "-", "kinetic energy of the nodes over the stored energy at the end of the gravity stage";
+    OVERBURDEN_ERROR = "overburden_error", "-", "rms over the particles within H/2 of the back wall of the vertical stress less the weight above, over γ H, then";
     CHECKERBOARD_AT_REST = "checkerboard_at_rest", "-", "rms of σ_m − Πσ_m over γ H, then";
     CHECKERBOARD_2_5S = "checkerboard_2.5s", "-", "rms of σ_m − Πσ_m over γ H, 2.5 s after the reduction";
     YIELDED_AT_REST = "yielded_at_rest", "-", "share of the particles that have yielded, then";
     SETTLEMENT_AT_REST = "settlement_at_rest", "m", "how far the crest's edge has sunk, then";
-    RUNOUT_1S = "runout_1s", "m",
-        "distance of the outermost particle, and half its spacing, from the first toe, 1 s after the reduction";
+    RUNOUT_1S = "runout_1s", "m", "distance of the outermost particle, and half its spacing, from the first toe, 1 s after the reduction";
     RUNOUT_2_5S = "runout_2.5s", "m", "distance of the outermost particle, and half its spacing, from the first toe, 2.5 s after the reduction";
     RUNOUT_END = "runout_end", "m", "distance of the outermost particle, and half its spacing, from the first toe, at the end";
-    BULK_RUNOUT_2_5S = "bulk_runout_2.5s", "m",
-        "distance from the first toe beyond which a hundredth of the ground lies, at 2.5 s";
+    BULK_RUNOUT_2_5S = "bulk_runout_2.5s", "m", "distance from the first toe beyond which a hundredth of the ground lies, at 2.5 s";
     BULK_RUNOUT_END = "bulk_runout_end", "m", "distance from the first toe beyond which a hundredth of the ground lies, at the end";
     SETTLEMENT_2_5S = "settlement_2.5s", "m", "how far the crest's edge has sunk at 2.5 s";
     SETTLEMENT_END = "settlement_end", "m", "settlement of the crest's edge at the end";
-    FAILED_SHARE_2_5S = "failed_share_2.5s", "-",
-        "share of the ground that has moved by more than H/20 since the reduction, at 2.5 s";
+    FAILED_SHARE_2_5S = "failed_share_2.5s", "-", "share of the ground that has moved by more than H/20 since the reduction, at 2.5 s";
     FAILED_SHARE_END = "failed_share_end", "-", "share of the ground that has moved by more than H/20 since the reduction, at the end";
     FAILURE_TIME = "failure_time", "s", "when a hundredth of the ground has moved so far";
-    RETROGRESSION_END = "retrogression_end", "m",
-        "distance behind the crest's edge to which its surface has moved so far, at the end";
-    SHEAR_BANDS_END = "shear_bands_end", "-",
-        "peaks of the plastic strain above one half through the particles from half the height, at the end";
-    REARMOST_BAND_END = "rearmost_band_end", "m",
-        "how far behind the crest's edge the rearmost of them is, before any motion";
+    RETROGRESSION_END = "retrogression_end", "m", "distance behind the crest's edge to which its surface has moved so far, at the end";
+    SHEAR_BANDS_END = "shear_bands_end", "-", "peaks of the plastic strain above one half through the particles from half the height, at the end";
+    REARMOST_BAND_END = "rearmost_band_end", "m", "how far behind the crest's edge the rearmost of them is, before any motion";
     PLASTIC_DISSIPATION = "plastic_dissipation", "J/m", "energy that flow has dissipated since the reduction";
     KINETIC_ENERGY_MAX = "kinetic_energy_max", "J/m", "largest kinetic energy";
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest growth of kinetic and potential energy and stress work in 0.01 s, over the potential energy at the reduction";
-    UNACCOUNTED_ENERGY = "unaccounted_energy", "-",
-        "kinetic, potential and stored energy and dissipation at the end less those at the reduction, over the potential energy then";
+    ENERGY_GAIN = "energy_gain", "-", "largest growth of kinetic and potential energy and stress work in 0.01 s, over the potential energy at the reduction";
+    UNACCOUNTED_ENERGY = "unaccounted_energy", "-", "kinetic, potential and stored energy and dissipation at the end less those at the reduction, over the potential energy then";
     FALLEN_ENERGY = "fallen_energy", "-", "potential energy lost since the reduction, over that then";
     JACOBIAN_MIN = "jacobian_min", "-", "least J of a particle at any time";
     JACOBIAN_MAX = "jacobian_max", "-", "greatest J of a particle at any time";
@@ -101,11 +86,9 @@ metrics! { ALL:
         "largest range over the width of the displacement of what was in one place of the section, over the largest displacement, at the end of the gravity stage";
     WIDTH_SPREAD_0_5S = "width_spread_0.5s", "-", "width_spread_at_rest, 0.5 s after the reduction instead";
     WIDTH_SPREAD_END = "width_spread_end", "-", "width_spread_at_rest, at the end instead";
-    OFF_PLANE_STRAIN_AT_REST = "off_plane_strain_at_rest", "-",
-        "relative difference of the crest's settlement from that in plane strain, at the end of the gravity stage";
+    OFF_PLANE_STRAIN_AT_REST = "off_plane_strain_at_rest", "-", "relative difference of the crest's settlement from that in plane strain, at the end of the gravity stage";
     OFF_PLANE_STRAIN_0_5S = "off_plane_strain_0.5s", "-", "relative difference of the crest's settlement from that in plane strain, 0.5 s after the reduction";
-    OFF_PLANE_STRAIN_END = "off_plane_strain_end", "m",
-        "difference of the outermost particle from that in plane strain at the end";
+    OFF_PLANE_STRAIN_END = "off_plane_strain_end", "m", "difference of the outermost particle from that in plane strain at the end";
 }
 
 fn cost(spec: &RunSpec, dimension: i32) -> f64 {

@@ -6,43 +6,30 @@ use crate::results::{Column, headline};
 metrics! { pub(in crate::cases) METRICS:
     DISPLACEMENT_L2 = "displacement_l2", "m", "rms over the particles of |u − exact u| at the end";
     DISPLACEMENT_LINF = "displacement_linf", "m", "largest |u − exact u| at the end";
-    VELOCITY_L2 = "velocity_l2", "m/s",
-        "rms of |v − exact v| at the end; explicit: half a step before it, where velocities live";
+    VELOCITY_L2 = "velocity_l2", "m/s", "rms of |v − exact v| at the end; explicit: half a step before it, where velocities live";
     VELOCITY_LINF = "velocity_linf", "m/s", "largest such error";
-    STRESS_L2 = "stress_l2", "Pa",
-        "rms of the Frobenius norm of the error of the Cauchy stress, as it enters the forces";
+    STRESS_L2 = "stress_l2", "Pa", "rms of the Frobenius norm of the error of the Cauchy stress, as it enters the forces";
     STRESS_LINF = "stress_linf", "Pa", "largest such error";
-    MEAN_STRESS_L2 = "mean_stress_l2", "Pa",
-        "rms error of the mean normal stress; of an isochoric motion, the spurious pressure";
+    MEAN_STRESS_L2 = "mean_stress_l2", "Pa", "rms error of the mean normal stress; of an isochoric motion, the spurious pressure";
     MEAN_STRESS_LINF = "mean_stress_linf", "Pa", "largest such error";
-    DISPLACEMENT_SCALE = "displacement_scale", "m",
-        "largest rms over the particles of the exact u since the start";
-    DISPLACEMENT_RATIO = "displacement_ratio", "-",
-        "projection of the displacement on the exact one, over it";
+    DISPLACEMENT_SCALE = "displacement_scale", "m", "largest rms over the particles of the exact u since the start";
+    DISPLACEMENT_RATIO = "displacement_ratio", "-", "projection of the displacement on the exact one, over it";
     VELOCITY_RATIO = "velocity_ratio", "-", "projection of the velocity on the exact one, over it";
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic + stored energy − work of the loads over its start, relative to the largest kinetic energy";
     ENERGY_LOSS = "energy_loss", "-", "largest fall of that energy below its start, relative to the largest kinetic energy";
     ENERGY_END = "energy_end", "-", "rise of that energy at the end over its start, relative to the largest kinetic energy";
-    LUMPING_LOSS = "lumping_loss", "-",
-        "midpoint: energy that the lumped share of the mass took, relative to the largest kinetic energy";
+    LUMPING_LOSS = "lumping_loss", "-", "midpoint: energy that the lumped share of the mass took, relative to the largest kinetic energy";
     KINETIC_ENERGY_PEAK = "kinetic_energy_peak", "J", "largest kinetic energy";
     LOG_JACOBIAN_GAP = "log_jacobian_gap", "-", "rms ln(J/J̄) at the end";
-    MASS = "mass", "kg",
-        "mass of the particles, per metre in plane strain and per square metre in uniaxial strain";
+    MASS = "mass", "kg", "mass of the particles, per metre in plane strain and per square metre in uniaxial strain";
     BODY_MASS = "body_mass", "kg", "ρ₀ times the volume of the body, per metre in plane strain and per square metre in uniaxial strain";
     DAMPING = "damping", "-", "−ln amplitude_ratio";
-    FREQUENCY_RATIO = "frequency_ratio", "-",
-        "frequency of the standing wave, from the zeros of its displacement, over the exact one";
+    FREQUENCY_RATIO = "frequency_ratio", "-", "frequency of the standing wave, from the zeros of its displacement, over the exact one";
     FREQUENCY_ERROR = "frequency_error", "-", "|frequency_ratio − 1|";
-    AMPLITUDE_RATIO = "amplitude_ratio", "-",
-        "largest displacement in the shape of the wave in the last period, over that in the first";
-    J_DRIFT_PER_1E5_STEPS = "j_drift_per_1e5_steps", "-",
-        "largest change of a cell's mean J̄ (J without a remedy) per 10⁵ steps";
-    TRUE_J_DRIFT_PER_1E5_STEPS = "true_j_drift_per_1e5_steps", "-",
-        "largest change of a cell's mean J per 10⁵ steps";
-    KINETIC_GROWTH = "kinetic_growth", "-",
-        "largest kinetic energy in the last third of the run over that in the middle third";
+    AMPLITUDE_RATIO = "amplitude_ratio", "-", "largest displacement in the shape of the wave in the last period, over that in the first";
+    J_DRIFT_PER_1E5_STEPS = "j_drift_per_1e5_steps", "-", "largest change of a cell's mean J̄ (J without a remedy) per 10⁵ steps";
+    TRUE_J_DRIFT_PER_1E5_STEPS = "true_j_drift_per_1e5_steps", "-", "largest change of a cell's mean J per 10⁵ steps";
+    KINETIC_GROWTH = "kinetic_growth", "-", "largest kinetic energy in the last third of the run over that in the middle third";
     BASE_PRESSURE = "base_pressure", "Pa", "pressure at the floor, by a straight line through the lower half";
 }
 

@@ -114,8 +114,7 @@ pub(super) fn metre_levels() -> Vec<Level> {
 
 parameters! { pub(super) const:
     DURATION = "duration", "s", "1", number(1e-9, 1e6, false), "time to run";
-    RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false),
-        "relaxation β of the remedy fbar-consistent";
+    RELAXATION = "relaxation", "-", "10", number(0.0, 1e9, false), "relaxation β of the remedy fbar-consistent";
     HOLD = "hold", "-", "0", number(0.0, 1e9, false),
         "ε² M of the remedy fbar-consistent is at least this many times the smooth pressure, M the body's modulus of pressure waves; zero: ε = 0.01 everywhere";
     STEP_POISSON_RATIO = "step_poisson_ratio", "-", "0.49", number(0.0, 0.5, true),

@@ -33,22 +33,18 @@ parameters! {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.05, 0.95), "porosity of the undeformed body";
-        conductivity: f64 = real("m/s", "1e-4", 1e-12, 1.0),
-            "hydraulic conductivity k of the undeformed body, of water of 9810 N/m³";
+        conductivity: f64 = real("m/s", "1e-4", 1e-12, 1.0), "hydraulic conductivity k of the undeformed body, of water of 9810 N/m³";
         conductivity_law: Law = Law::KozenyCarman.by_default(), "how it depends on the porosity";
         gravity: f64 = solutions::GRAVITY;
-        amplitude: f64 = solutions::AMPLITUDE.with_default("0.005"),
-            "amplitude A of u: particles cross cells where it exceeds h/4; F needs A < 0.07 m to keep its pores open";
+        amplitude: f64 = solutions::AMPLITUDE.with_default("0.005"), "amplitude A of u: particles cross cells where it exceeds h/4; F needs A < 0.07 m to keep its pores open";
         pressure: f64 = real("Pa", "1e4", 0.0, 1e6), "amplitude P of the pressure beside that of the water's weight";
-        angular_frequency: f64 = solutions::ANGULAR_FREQUENCY.with_default("0.015707963267948967"),
-            "angular frequency ω: the default duration is a quarter of a period";
+        angular_frequency: f64 = solutions::ANGULAR_FREQUENCY.with_default("0.015707963267948967"), "angular frequency ω: the default duration is a quarter of a period";
         duration: f64 = real("s", "100", 1e-3, 1e6), "time to run";
         steps: i32 = whole("-", "4", 1, 10_000), "equal steps";
         source: Source = Source::Steps.by_default(),
             "steps: the water that backward Euler needs to be exact, so that only the error of space is left; rates: that of the rates at a step's end";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
-        predictor: Start = Start::Particles.by_default(),
-            "where Newton's method begins to look for pressures: at the volume average of the particles', or at zero";
+        predictor: Start = Start::Particles.by_default(), "where Newton's method begins to look for pressures: at the volume average of the particles', or at zero";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
         tolerance: f64 = real("-", "1e-10", 1e-13, 1e-8), "residual of a converged step over what it balances";
     }
@@ -58,8 +54,7 @@ metrics! { ALL:
     DISPLACEMENT_L2 = "displacement_l2", "m", "rms over the particles of |u − exact u| at the end";
     DISPLACEMENT_LINF = "displacement_linf", "m", "largest |u − exact u| at the end";
     DISPLACEMENT_SCALE = "displacement_scale", "m", "rms over the particles of the exact u at the end";
-    PRESSURE_L2 = "pressure_l2", "-",
-        "rms over the particles of p less the exact one at the end, over that of the exact p";
+    PRESSURE_L2 = "pressure_l2", "-", "rms over the particles of p less the exact one at the end, over that of the exact p";
     PRESSURE_LINF = "pressure_linf", "-", "largest error of p at a particle at the end, over the rms of the exact p";
     PRESSURE_SCALE = "pressure_scale", "Pa", "rms over the particles of the exact p at the end";
     STRESS_L2 = "stress_l2", "Pa", "rms of the Frobenius norm of the error of the effective Cauchy stress";

@@ -21,8 +21,7 @@ const ALIKE: f64 = 0.1;
 
 metrics! { STATIC:
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
-    LINEAR_ITERATIONS = "linear_iterations", "-",
-        "solutions by factors, with F̄ iterations of conjugate gradients";
+    LINEAR_ITERATIONS = "linear_iterations", "-", "solutions by factors, with F̄ iterations of conjugate gradients";
 }
 
 pub(super) fn case() -> Case {

@@ -23,16 +23,12 @@ choices! {
 parameters! {
     /// Parameters of the column.
     struct Newton {
-        support: Support = Support::Hangs.by_default(),
-            "the column hangs from its upper end and softens, or stands on a barrier";
-        load: f64 = real("-", "0.7", 0.01, 100.0),
-            "weight of the column over the greatest that it bears hanging, M/e of its area";
+        support: Support = Support::Hangs.by_default(), "the column hangs from its upper end and softens, or stands on a barrier";
+        load: f64 = real("-", "0.7", 0.01, 100.0), "weight of the column over the greatest that it bears hanging, M/e of its area";
         load_steps: i32 = common::LOAD_STEPS.with_default("1");
-        gap: f64 = real("-", "0.9", 0.01, 3.0),
-            "standing: gap of the lowest particles at the start over the distance at which the barrier begins";
+        gap: f64 = real("-", "0.9", 0.01, 3.0), "standing: gap of the lowest particles at the start over the distance at which the barrier begins";
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
-        yield_strain: f64 = real("-", "0", 0.0, 1.0),
-            "standing: logarithmic strain of uniaxial strain at which the column yields by J2, without hardening; 0: never";
+        yield_strain: f64 = real("-", "0", 0.0, 1.0), "standing: logarithmic strain of uniaxial strain at which the column yields by J2, without hardening; 0: never";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
     }
 }
@@ -40,17 +36,12 @@ parameters! {
 metrics! { ALL:
     CARRIED = "carried", "-", "share of the load at the last equilibrium that was found";
     BEARABLE = "bearable", "-", "share of the load up to which there is one";
-    EQUILIBRIUM_ERROR = "equilibrium_error", "-",
-        "rms error of the displacements at the last equilibrium over the height; none if there was none";
+    EQUILIBRIUM_ERROR = "equilibrium_error", "-", "rms error of the displacements at the last equilibrium over the height; none if there was none";
     BOUND = "equilibrium_bound", "-", "bound of it: what cells of this size leave";
-    REACTION_ERROR = "reaction_error", "-",
-        "force on the floor, or on what holds the upper end, over the weight that is carried, less one";
-    GAP_ERROR = "gap_error", "-",
-        "standing: mean gap of the lowest particles less the exact one, over the distance at which the barrier begins";
-    FLOW_ERROR = "flow_error", "-",
-        "yielding, more than a cell deeper than the exact column yields: largest error of J (σ_xx − σ_yy) and J (σ_zz − σ_yy), over what flow leaves of them";
-    NEWTON_RATE = "newton_rate", "-",
-        "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
+    REACTION_ERROR = "reaction_error", "-", "force on the floor, or on what holds the upper end, over the weight that is carried, less one";
+    GAP_ERROR = "gap_error", "-", "standing: mean gap of the lowest particles less the exact one, over the distance at which the barrier begins";
+    FLOW_ERROR = "flow_error", "-", "yielding, more than a cell deeper than the exact column yields: largest error of J (σ_xx − σ_yy) and J (σ_zz − σ_yy), over what flow leaves of them";
+    NEWTON_RATE = "newton_rate", "-", "largest over the steps of the least contraction of the residual in an iteration, over √(τ/r) from a residual r to the tolerance τ";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps that were taken";
     PARTS = "parts", "-", "most parts that a load step was cut into";
 }

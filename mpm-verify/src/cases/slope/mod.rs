@@ -13,8 +13,7 @@ pub(super) const DENSITY: Parameter = common::DENSITY.with_default("2150").withi
 parameters! { pub(super) const:
     HEIGHT = "height", "m", "5", number(1.0, 100.0, false), "height H";
     CREST = "crest", "m", "10", number(0.5, 200.0, false), "length of the crest behind the face";
-    FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false),
-        "angle of the face against the horizontal";
+    FACE_ANGLE = "face_angle", "°", "45", number(5.0, 90.0, false), "angle of the face against the horizontal";
     FLOOR = "floor", "m", "30", number(1.0, 500.0, false), "length of the fixed floor before the toe";
 }
 pub(super) const CFL: Parameter = common::CFL

@@ -22,8 +22,7 @@ parameters! {
     struct Stability {
         young_modulus: f64 = slope::YOUNG_MODULUS;
         poisson_ratio: f64 = slope::POISSON_RATIO;
-        strength: f64 = real("Pa", "40.82e3", 1.0, 1e12),
-            "strength κ = ‖s‖, √2 times the undrained shear strength";
+        strength: f64 = real("Pa", "40.82e3", 1.0, 1e12), "strength κ = ‖s‖, √2 times the undrained shear strength";
         density: f64 = slope::DENSITY;
         height: f64 = slope::HEIGHT;
         crest: f64 = slope::CREST;
@@ -40,14 +39,12 @@ parameters! {
 }
 
 metrics! { ALL:
-    STRENGTH_REDUCTION_FACTOR = "strength_reduction_factor", "-",
-        "middle of the factors between which the slope first fails; the largest tried, if it stands";
+    STRENGTH_REDUCTION_FACTOR = "strength_reduction_factor", "-", "middle of the factors between which the slope first fails; the largest tried, if it stands";
     FACTOR_ERROR = "factor_error", "-",
         "relative distance of that from the factor of limit analysis, which is known to half a per cent; none where the slope stands at the largest factor or has another angle than 45°";
     STANDS_AT = "stands_at", "-", "largest factor at which the slope stands";
     FAILS_AT = "fails_at", "-", "least factor at which it fails";
-    MOVED_STANDING = "moved_standing", "m",
-        "largest displacement since the reduction at the largest factor at which it stands";
+    MOVED_STANDING = "moved_standing", "m", "largest displacement since the reduction at the largest factor at which it stands";
     MASS = "mass", "kg/m", "mass of the ground";
     NEWTON_ITERATIONS = "newton_iterations", "-", "quasi-static: Newton's iterations of all trials";
 }

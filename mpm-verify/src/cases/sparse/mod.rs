@@ -27,12 +27,10 @@ parameters! {
 }
 
 metrics! { ALL:
-    ERROR_MEDIAN = "error_median", "-",
-        "median over the clouds of the rms error of the displacement over the rms of the exact one; a cloud that breaks down counts as the worst";
+    ERROR_MEDIAN = "error_median", "-", "median over the clouds of the rms error of the displacement over the rms of the exact one; a cloud that breaks down counts as the worst";
     ERROR_HIGH = "error_high", "-", "ninth decile over the clouds of the same error; none if more than a tenth of the clouds break down";
     STRESS_MEDIAN = "stress_error_median", "-", "median over the clouds of the rms error of the stress over the rms of the exact one; a cloud that breaks down counts as the worst";
-    SOFTENING = "softening", "-",
-        "median over the clouds of the displacement along the exact one, over it, less one: more than exact is soft";
+    SOFTENING = "softening", "-", "median over the clouds of the displacement along the exact one, over it, less one: more than exact is soft";
     BROKEN = "broken", "-", "share of the clouds that break down";
 }
 

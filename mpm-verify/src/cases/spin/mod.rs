@@ -33,11 +33,9 @@ parameters! {
 }
 
 metrics! { ALL:
-    ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-",
-        "largest change of the angular momentum, that of affine parts with it, over its start; 10⁻¹² if it is less";
+    ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "-", "largest change of the angular momentum, that of affine parts with it, over its start; 10⁻¹² if it is less";
     ANGULAR_MOMENTUM_END = "angular_momentum_end", "-", "angular momentum at the end over its start";
-    MOMENTUM_ERROR = "momentum_error", "-",
-        "largest linear momentum over the mass times the speed of the rim; 10⁻¹² if it is less";
+    MOMENTUM_ERROR = "momentum_error", "-", "largest linear momentum over the mass times the speed of the rim; 10⁻¹² if it is less";
     ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy, over their start";
     ENERGY_LOSS = "energy_loss", "-", "largest fall of kinetic and stored energy, over their start";
     ENERGY_END = "energy_end", "-", "change of kinetic and stored energy at the end, over their start";

@@ -19,11 +19,9 @@ const JUMPS: f64 = 0.3;
 parameters! {
     /// Parameters of the body.
     struct Stretch {
-        end: f64 = real("-", "8", 0.02, 20.0),
-            "stretch of each axis at the end: above 1 the body is pulled, below it is crushed";
+        end: f64 = real("-", "8", 0.02, 20.0), "stretch of each axis at the end: above 1 the body is pulled, below it is crushed";
         dimension: usize = whole("-", "1", 1, 2), "1: uniaxial strain; 2: plane strain, alike along both axes";
-        speed: f64 = real("-", "0.02", 1e-3, 0.2),
-            "speed of the ends of the free part at the start over that of waves in the undeformed body";
+        speed: f64 = real("-", "0.02", 1e-3, 0.2), "speed of the ends of the free part at the start over that of waves in the undeformed body";
         rows: i32 = whole("-", "140", 10, 10_000), "rows of the series; quasi-static: equal load steps";
         cfl: f64 = common::CFL.with_default("0.1"), "CFL number c Δt / h of pressure waves in the undeformed body";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
@@ -32,21 +30,16 @@ parameters! {
 }
 
 metrics! { ALL:
-    TEAR_STRETCH = "tear_stretch", "-",
-        "first stretch at which the mean stress of the free part is less than half of the exact one, if reached";
-    PARTED_STRETCH = "parted_stretch", "-",
-        "first stretch at which neighbours have no common node, if reached";
-    PREDICTED_TEAR_STRETCH = "predicted_tear_stretch", "-",
-        "the same of particles at their exact places: where gap and support of the functions tear the body at the latest";
+    TEAR_STRETCH = "tear_stretch", "-", "first stretch at which the mean stress of the free part is less than half of the exact one, if reached";
+    PARTED_STRETCH = "parted_stretch", "-", "first stretch at which neighbours have no common node, if reached";
+    PREDICTED_TEAR_STRETCH = "predicted_tear_stretch", "-", "the same of particles at their exact places: where gap and support of the functions tear the body at the latest";
     UNSTABLE_STRETCH = "unstable_stretch", "-",
         "first stretch at which some motion of the free nodes, in the exact state without a remedy, has a negative stiffness, less the share by which the noise that is foretold may stretch some place more; none of linear functions";
     STOPPED_STRETCH = "stopped_stretch", "-", "stretch at which the program stops with an error, if it does";
-    PREDICTED_STOP_STRETCH = "predicted_stop_stretch", "-",
-        "explicit: stretch at which the fastest particle and waves of the exact state pass a cell in a step";
+    PREDICTED_STOP_STRETCH = "predicted_stop_stretch", "-", "explicit: stretch at which the fastest particle and waves of the exact state pass a cell in a step";
     STRESS_NOISE = "stress_noise", "-",
         "largest rms over the free part of what the stress differs from the exact one by, over it, up to unstable_stretch; of linear functions to predicted_tear_stretch";
-    PREDICTED_NOISE = "predicted_noise", "-",
-        "largest rms of the stress that answers the forces of a uniform stress on the lattice, over the exact stress, up to the same stretch";
+    PREDICTED_NOISE = "predicted_noise", "-", "largest rms of the stress that answers the forces of a uniform stress on the lattice, over the exact stress, up to the same stretch";
     STRESS_KEPT = "stress_kept", "-", "mean stress of the free part at the end, over the exact one";
 }
 

@@ -47,26 +47,22 @@ parameters! {
     /// Parameters of the strip.
     struct Strip {
         law: Soil = LAW, "improved Hencky, or modified Cam clay with that elasticity";
-        dimension: i32 = whole("-", "2", 2, 3),
-            "2: a strip, in plane strain; 3: a square whose half side is half_width, on a cube of elastic soil";
+        dimension: i32 = whole("-", "2", 2, 3), "2: a strip, in plane strain; 3: a square whose half side is half_width, on a cube of elastic soil";
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e6"), "Young's modulus of the soil at rest";
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25"), "Poisson's ratio of the soil at rest";
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed soil";
-        conductivity: f64 = real("m/s", "1e-6", 1e-18, 1.0),
-            "hydraulic conductivity k of the undeformed soil, of water of 9810 N/m³, after Kozeny and Carman";
+        conductivity: f64 = real("m/s", "1e-6", 1e-18, 1.0), "hydraulic conductivity k of the undeformed soil, of water of 9810 N/m³, after Kozeny and Carman";
         load: f64 = real("Pa", "4e5", 1.0, 1e8), "load q on the strip at the end";
         half_width: f64 = real("m", "1", 0.5, 5.0), "half the width of the strip; 5 m is the whole surface";
         duration: f64 = real("s", "2000", 1e-6, 1e12), "time in which the load, or the settlement, grows linearly";
         steps: i32 = whole("-", "20", 1, 10_000), "equal steps";
         control: Control = CONTROL, "what is given: a load on the flexible strip, or the settlement of a rigid smooth one";
-        penetration: f64 = real("m", "0.01", 1e-9, 0.1),
-            "settlement at which the limit load is reported; with control=settlement the settlement at the end";
+        penetration: f64 = real("m", "0.01", 1e-9, 0.1), "settlement at which the limit load is reported; with control=settlement the settlement at the end";
         drain: f64 = real("-", "1e4", 1.0, 1e6), "what the drained surface lets through for its pressure, over κ₀/h";
         ghost_displacement: f64 = real("-", "0.1", 0.0, 10.0), "ghost penalty of the displacement over G";
         ghost_pressure: f64 = real("-", "0.01", 0.0, 10.0), "ghost penalty of the pressure over κ₀ Δt";
         projection: f64 = real("-", "1", 0.01, 100.0), "ppp: its strength times 2G";
-        initial_pressure: f64 = real("Pa", "2e4", 0.0, 1e7),
-            "cam-clay: isotropic effective pressure at the start, which a load on the whole surface balances";
+        initial_pressure: f64 = real("Pa", "2e4", 0.0, 1e7), "cam-clay: isotropic effective pressure at the start, which a load on the whole surface balances";
         preconsolidation: f64 = real("Pa", "4e4", 0.0, 1e8), "cam-clay: preconsolidation p_c at the start";
         critical_ratio: f64 = real("-", "1", 0.0, 3.0), "cam-clay: q/p of the critical state";
         plastic_compressibility: f64 = real("-", "0.05", 0.0, 1.0), "cam-clay: λ − κ";
@@ -77,33 +73,21 @@ parameters! {
 }
 
 metrics! { ALL:
-    SETTLEMENT = "settlement", "-",
-        "settlement at the end of the particle next to the axis at the surface, over the half width B";
-    SETTLEMENT_RATIO = "settlement_ratio", "-",
-        "settlement over that of finite elements at small strain; only for elastic soil under at most 1 kPa, in their steps or undrained";
-    PRESSURE_ERROR = "pressure_error", "-",
-        "rms over the particles at the end of the pressure's distance from that of the same elements, over the load";
-    PRESSURE_ERROR_LARGEST = "pressure_error_largest", "-",
-        "the largest of these distances farther than B/2 from the strip's edge";
-    ROUGHNESS = "roughness", "-",
-        "rms at the end of the pressure less the mean of the four particles beside it, over the load, farther than B/2 from the strip's edge";
+    SETTLEMENT = "settlement", "-", "settlement at the end of the particle next to the axis at the surface, over the half width B";
+    SETTLEMENT_RATIO = "settlement_ratio", "-", "settlement over that of finite elements at small strain; only for elastic soil under at most 1 kPa, in their steps or undrained";
+    PRESSURE_ERROR = "pressure_error", "-", "rms over the particles at the end of the pressure's distance from that of the same elements, over the load";
+    PRESSURE_ERROR_LARGEST = "pressure_error_largest", "-", "the largest of these distances farther than B/2 from the strip's edge";
+    ROUGHNESS = "roughness", "-", "rms at the end of the pressure less the mean of the four particles beside it, over the load, farther than B/2 from the strip's edge";
     LEAST_PRESSURE = "least_pressure", "-", "least pressure of a particle at the end, over the load";
     MOST_PRESSURE = "largest_pressure", "-", "largest pressure of a particle at the end, over the load";
-    LAST_LOAD = "last_load", "Pa",
-        "load on the strip after the last step or part of one that has a solution: of Cam clay its limit, if it has not come to the whole";
-    LIMITING_LOAD = "limit_load", "Pa",
-        "load at the settlement `penetration`; none if it was not reached";
-    GROWTH = "growth", "-",
-        "control=settlement: what the load has grown by in the last quarter, over itself";
-    UNIFORM_ERROR = "uniform_error", "-",
-        "of Cam clay, α = γ = 1, under a load on its whole surface: relative error of the settlement of all of it, by its volume";
+    LAST_LOAD = "last_load", "Pa", "load on the strip after the last step or part of one that has a solution: of Cam clay its limit, if it has not come to the whole";
+    LIMITING_LOAD = "limit_load", "Pa", "load at the settlement `penetration`; none if it was not reached";
+    GROWTH = "growth", "-", "control=settlement: what the load has grown by in the last quarter, over itself";
+    UNIFORM_ERROR = "uniform_error", "-", "of Cam clay, α = γ = 1, under a load on its whole surface: relative error of the settlement of all of it, by its volume";
     PLASTIC_STRAIN = "plastic_strain", "-", "largest equivalent plastic strain";
-    SUPPORT_ERROR = "support_error", "-",
-        "distance of the force on the base from the loads, over these; 10⁻⁹ if less";
-    MASS_ERROR = "mass_error", "-",
-        "change of the volume and outflow together, over what the strip displaces; 10⁻⁹ if it is less, which no golden should hold";
-    TURNOVER = "turnover", "-",
-        "Σ V |J̃ − 1| of all particles and steps over what the strip displaces";
+    SUPPORT_ERROR = "support_error", "-", "distance of the force on the base from the loads, over these; 10⁻⁹ if less";
+    MASS_ERROR = "mass_error", "-", "change of the volume and outflow together, over what the strip displaces; 10⁻⁹ if it is less, which no golden should hold";
+    TURNOVER = "turnover", "-", "Σ V |J̃ − 1| of all particles and steps over what the strip displaces";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     MOST_ITERATIONS = "newton_most", "-", "most iterations of a step that has a solution";
     ENTRIES = "matrix_entries", "-", "entries of a matrix, on average";

@@ -21,29 +21,22 @@ parameters! {
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");
         porosity: f64 = real("-", "0.4", 0.01, 0.99), "porosity of the undeformed column";
         conductivity: f64 = poro::CONDUCTIVITY;
-        load: f64 = real("Pa", "10", 1e-3, 1e6),
-            "load q: small, so that what is finite of its strain, q/M, is below all errors";
+        load: f64 = real("Pa", "10", 1e-3, 1e6), "load q: small, so that what is finite of its strain, q/M, is below all errors";
         steps: i32 = whole("-", "40", 1, 10_000), "steps";
-        time_end: f64 = real("-", "0.1", 1e-6, 10.0),
-            "time at the end over H²/c_v; of a single step with a first_step, that";
-        first_step: f64 = real("-", "0", 0.0, 1e4),
-            "c_v Δt/h² of the first step, with h the cells of the displacement; the others grow by a factor. 0: all equal";
+        time_end: f64 = real("-", "0.1", 1e-6, 10.0), "time at the end over H²/c_v; of a single step with a first_step, that";
+        first_step: f64 = real("-", "0", 0.0, 1e4), "c_v Δt/h² of the first step, with h the cells of the displacement; the others grow by a factor. 0: all equal";
         projection: f64 = poro::PROJECTION;
         tolerance: f64 = poro::TOLERANCE;
     }
 }
 
 metrics! { ALL:
-    PRESSURE_L2 = "pressure_l2", "-",
-        "rms over the particles, at the end, of the pressure less Terzaghi's, over the load";
+    PRESSURE_L2 = "pressure_l2", "-", "rms over the particles, at the end, of the pressure less Terzaghi's, over the load";
     PRESSURE_L2_STEPS = "pressure_l2_steps", "-",
         "rms over the particles, at the end, of the pressure less the exact solution in space of the same backward Euler steps, over the load: the error of space alone";
-    OVERSHOOT_FIRST_STEP = "overshoot_first_step", "-",
-        "largest pressure at a node after the first step over the load, less one; zero where none exceeds it by 10⁻⁹";
-    SETTLEMENT_ERROR = "settlement_error", "-",
-        "distance at the end of the settlement from Terzaghi's, over the final one q H/M";
-    MASS_ERROR = "mass_error", "-",
-        "change of the volume and outflow together, over the outflow; 10⁻⁹ if it is less, which no golden should hold";
+    OVERSHOOT_FIRST_STEP = "overshoot_first_step", "-", "largest pressure at a node after the first step over the load, less one; zero where none exceeds it by 10⁻⁹";
+    SETTLEMENT_ERROR = "settlement_error", "-", "distance at the end of the settlement from Terzaghi's, over the final one q H/M";
+    MASS_ERROR = "mass_error", "-", "change of the volume and outflow together, over the outflow; 10⁻⁹ if it is less, which no golden should hold";
     NEWTON_ITERATIONS = "newton_iterations", "-", "Newton iterations of all steps";
     ENTRIES = "matrix_entries", "-", "entries of a matrix";
 }

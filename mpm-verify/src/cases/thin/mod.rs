@@ -29,8 +29,7 @@ const CFL: Parameter = common::CFL.with_default("0.3").within(number(1e-3, 100.0
 parameters! {
     /// Parameters of the beam.
     struct Thin {
-        shift: f64 = real("h", "0", 0.0, 1.0).below(),
-            "how far the faces of the beam lie above the nearest grid lines, in cells";
+        shift: f64 = real("h", "0", 0.0, 1.0).below(), "how far the faces of the beam lie above the nearest grid lines, in cells";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0");
         cfl: f64 = CFL, "CFL number c Δt / h of pressure waves; explicit: below 1";

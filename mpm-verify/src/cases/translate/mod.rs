@@ -19,8 +19,7 @@ const SLOW: f64 = 0.06;
 parameters! {
     /// Parameters of the body.
     struct Translate {
-        stretch: f64 = real("-", "0.98", 0.8, 1.2),
-            "equal stretch in the plane that the body is under: below 1 a pressure, above a tension";
+        stretch: f64 = real("-", "0.98", 0.8, 1.2), "equal stretch in the plane that the body is under: below 1 a pressure, above a tension";
         speed: f64 = real("-", "0.05", 1e-3, 0.5), "speed of the body over that of waves";
         cells: f64 = real("-", "100", 1.0, 1e5), "cells that it crosses";
         particles: usize = whole("-", "14", 8, 32), "particles in the eight cells of a period along the motion";
@@ -34,18 +33,13 @@ parameters! {
 }
 
 metrics! { ALL:
-    STRESS_NOISE = "stress_noise", "-",
-        "largest rms over the particles of σ_xx minus its mean, over its exact value; 10⁻¹⁰ if it is less";
+    STRESS_NOISE = "stress_noise", "-", "largest rms over the particles of σ_xx minus its mean, over its exact value; 10⁻¹⁰ if it is less";
     STRESS_NOISE_MEAN = "stress_noise_mean", "-", "mean over the rows of the last half of the run of that rms over the exact value";
     STRESS_KEPT = "stress_kept", "-", "mean of σ_xx over the particles at the end, over its exact value";
-    PREDICTED_NOISE = "predicted_noise", "-",
-        "rms of the stress that answers the forces of a uniform stress on this lattice; flip without a remedy";
-    VELOCITY_NOISE = "velocity_noise", "-",
-        "largest rms of the velocity less that of the body, over its speed; 10⁻¹⁰ if it is less";
-    MOMENTUM_ERROR = "momentum_error", "-",
-        "largest change of the momentum over its start; 10⁻¹² if it is less";
-    ENERGY_GAIN = "energy_gain", "-",
-        "largest rise of kinetic and stored energy, over the kinetic energy at the start";
+    PREDICTED_NOISE = "predicted_noise", "-", "rms of the stress that answers the forces of a uniform stress on this lattice; flip without a remedy";
+    VELOCITY_NOISE = "velocity_noise", "-", "largest rms of the velocity less that of the body, over its speed; 10⁻¹⁰ if it is less";
+    MOMENTUM_ERROR = "momentum_error", "-", "largest change of the momentum over its start; 10⁻¹² if it is less";
+    ENERGY_GAIN = "energy_gain", "-", "largest rise of kinetic and stored energy, over the kinetic energy at the start";
     ENERGY_LOSS = "energy_loss", "-", "largest fall of kinetic and stored energy, over the kinetic energy at the start";
     MASS = "mass", "kg/m", "mass of the body";
 }

@@ -25,26 +25,19 @@ const PRESSURE_FUNCTIONS: Parameter = PressureFunctions::Same.by_default().named
 parameters! {
     /// Parameters of the undrained body.
     struct Undrained {
-        domain: Domain = DOMAIN,
-            "square: held all around, on grid lines; ellipse: half of one, held at its straight side, that fits no grid";
+        domain: Domain = DOMAIN, "square: held all around, on grid lines; ellipse: half of one, held at its straight side, that fits no grid";
         points_per_direction: usize = whole("-", "2", 2, 4), "particles per cell of the displacement and direction";
-        layout: Layout = Layout::Aligned.by_default(),
-            "aligned: domains fill cells; across: one more along each side, so that domains lie across grid lines";
-        pressure_functions: PressureFunctions = PRESSURE_FUNCTIONS,
-            "functions of the pressure: those of the displacement, or linear ones";
+        layout: Layout = Layout::Aligned.by_default(), "aligned: domains fill cells; across: one more along each side, so that domains lie across grid lines";
+        pressure_functions: PressureFunctions = PRESSURE_FUNCTIONS, "functions of the pressure: those of the displacement, or linear ones";
     }
 }
 
 metrics! { ALL:
-    INF_SUP = "inf_sup", "-",
-        "least number β > 0 that a pressure's norm times the norms of motions can fall to where it works on them, Chapelle and Bathe's";
+    INF_SUP = "inf_sup", "-", "least number β > 0 that a pressure's norm times the norms of motions can fall to where it works on them, Chapelle and Bathe's";
     ZERO_MODES = "zero_modes", "-", "pressures that no motion sees: β² < 10⁻⁹";
-    DISPLACEMENT_ERROR = "displacement_error", "-",
-        "rms over the particles of the distance from the exact displacement, over its rms; none of the ellipse";
-    PRESSURE_ERROR = "pressure_error", "-",
-        "rms over the particles of the distance from the exact pressure, over its rms; none of the ellipse";
-    CHECKERBOARD_RATIO = "checkerboard_ratio", "-",
-        "rms over the cells of the pressure of a checkerboard's amplitude, over the rms of the exact pressure; none of the ellipse";
+    DISPLACEMENT_ERROR = "displacement_error", "-", "rms over the particles of the distance from the exact displacement, over its rms; none of the ellipse";
+    PRESSURE_ERROR = "pressure_error", "-", "rms over the particles of the distance from the exact pressure, over its rms; none of the ellipse";
+    CHECKERBOARD_RATIO = "checkerboard_ratio", "-", "rms over the cells of the pressure of a checkerboard's amplitude, over the rms of the exact pressure; none of the ellipse";
     UNKNOWNS = "displacements", "-", "unknown components of displacement";
     PRESSURES = "pressures", "-", "unknown pressures";
 }
