@@ -187,9 +187,11 @@ impl Membrane {
         Ok(rest)
     }
 
-    /// Window of the criterion of rest (s).
+    /// Window of the criterion of rest (s): with local damping at least a period, as its force on velocities of any sign holds a
+    /// slow motion back like friction, and what is out of balance no longer tells how far rest is.
     fn window(&self) -> f64 {
-        self.setup.rest_window * self.setup.period()
+        let least = if self.setup.damping > 0.0 { 1.0 } else { 0.0 };
+        self.setup.rest_window.max(least) * self.setup.period()
     }
 
     /// Whether the run has shown, over a whole period, that it will never rest.

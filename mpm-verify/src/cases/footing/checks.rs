@@ -45,6 +45,7 @@ const RATE: f64 = 0.005;
 /// elements' own error lowers it.
 const ORDER: (f64, f64) = (0.85, 1.1);
 
+const DIFFUSES: &str = "Eq. (26) averages the average and so diffuses J̄ in time: pressures relax";
 const LOCKS: &str = "standard MPM locks: Zhao et al. 2023, Figure 8";
 
 impl Setup<Footing> {
@@ -92,25 +93,26 @@ impl Setup<Footing> {
         // The limit pressure over K compresses a depth of B by so much more than at the ratio of the finite elements.
         let compressed = 6.0 * (STATED - self.poisson_ratio).max(0.0) * EXACT;
         let plastic = (PLASTIC + compressed) * self.strength_ratio();
-        if 0.75 * self.penetration < plastic {
-            Some(format!("the ground is fully plastic from s/B = {plastic} on only"))
-        } else if self.penetration > SMALL {
-            Some(format!("beyond s/B = {SMALL} the ground changes its shape"))
-        } else {
-            None
-        }
+        (0.75 * self.penetration < plastic).then(|| format!("the ground is fully plastic from s/B = {plastic} on only"))
     }
 
-    /// Why the width that the footing acts with is unknown, if it is.
-    fn unknown_width(&self) -> Option<String> {
-        let why = "how wide a footing acts through a barrier is not known beforehand: see contacts-agree";
-        self.presses_by_barrier().then(|| why.to_owned())
+    /// Why stresses at points are not those of the references, if they are not.
+    fn other_points(&self) -> Option<String> {
+        let barrier = "how wide a footing acts through a barrier is known to a cell only";
+        let deep = format!("beyond s/B = {SMALL} the ground changes its shape");
+        self.presses_by_barrier().then(|| barrier.to_owned()).or_else(|| (self.penetration > SMALL).then_some(deep))
+    }
+
+    /// Relative change of the limit load as a footing digs itself in, at most: Skempton's 1 + 0.2 D/B of the depth D, which
+    /// heave as high as the penetration doubles, and as much for the changed surface.
+    fn embedded(&self) -> f64 {
+        if self.penetration > SMALL { self.penetration } else { 0.0 }
     }
 
     /// Tolerance of the limit load by the width that the footing acts with, over s_u.
     fn load_tolerance(&self) -> f64 {
         let (width, uncertainty) = self.effective_width();
-        (PRANDTL * self.coarseness() + uncertainty / width) * EXACT
+        (PRANDTL * self.coarseness() + uncertainty / width + self.embedded()) * EXACT
     }
 
     /// Whether the ground yields, in a run that is judged.
@@ -125,7 +127,7 @@ impl Setup<Footing> {
 
     /// Whether standard MPM locks.
     fn locks(&self) -> bool {
-        self.remedy() == RemedyName::None && !self.is_elastic() && self.shown_only().is_none()
+        self.remedy() == RemedyName::None && self.yields()
     }
 
     /// Relative softness of an elastic footing against one of its width. Splines are exactly rigid up to a cell inside of its
@@ -150,6 +152,26 @@ impl Setup<Footing> {
     /// Extent of the mechanism over the width that the footing acts with.
     fn extent(&self) -> f64 {
         mechanism_extent(self.rough) / WIDTH
+    }
+}
+
+impl Run<'_, Footing> {
+    /// Load over s_u above which standard MPM counts as locked.
+    fn locked_load(&self) -> f64 {
+        let tolerances = if self.other_points().is_some() { 1.0 } else { LOCKED };
+        EXACT + tolerances * self.load_tolerance()
+    }
+
+    /// Tolerance (B) of the end of the mechanism.
+    fn smeared(&self) -> f64 {
+        SMEARED * self.h + self.extent() * self.effective_width().1
+    }
+
+    /// The larger miss of the plateau and the mechanism, over their tolerances.
+    fn worst_miss(&self) -> f64 {
+        let plateau = (self.metric(PLATEAU_RISE) - 0.5 * (FLAT.1 - FLAT.0)) / (0.5 * (FLAT.1 + FLAT.0));
+        let mechanism = (self.metric(MECHANISM_WIDTH) - self.extent() * self.effective_width().0) / self.smeared();
+        plateau.abs().max(mechanism.abs())
     }
 }
 
@@ -187,11 +209,10 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .unless(|c| c.shown_only())
             .when(|c| c.yields())
             .unless(|c| c.no_limit())
-            .unless(|c| c.unknown_width())
             .within(NC_EFFECTIVE, |_| EXACT, |c| c.load_tolerance())
             .because("Prandtl 1920"),
-        Check::truth("limit-load", "fbar-rate, fbar-consistent: load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter")
-            .when(|c| c.has_limit())
+        Check::truth("limit-load", "all: load grows by less than 0.5 % and falls by less than 1 % per 10⁻³ of s/B over the last quarter")
+            .when(|c| c.yields())
             .unless(|c| c.no_limit())
             .within(PLATEAU_RISE, |_| 0.5 * (FLAT.1 - FLAT.0), |_| 0.5 * (FLAT.1 + FLAT.0))
             // The growth of a load in proportion to the penetration.
@@ -206,11 +227,10 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .when(|c| c.yields() && c.no_limit().is_none() && c.metric(OSCILLATION_RATIO) >= 0.0)
             .at_most(OSCILLATION_RATIO, |c| (BOARD.2 * c.coarseness()).min(BOARD.1))
             .because("a pressure that is resolved is nearly a plane within two cells, but at the edge of the footing"),
-        Check::truth("mechanism", "fbar-rate, fbar-consistent: surface rises out to 1.5 times the effective width of the footing, once the width if it is smooth, within 2h")
-            .when(|c| c.has_limit())
+        Check::truth("mechanism", "all: surface rises out to 1.5 times the effective width of the footing, once the width if it is smooth, within 2h")
+            .when(|c| c.yields())
             .unless(|c| c.no_limit())
-            .unless(|c| c.unknown_width())
-            .within(MECHANISM_WIDTH, |c| c.extent() * c.effective_width().0, |c| SMEARED * c.h + c.extent() * c.effective_width().1)
+            .within(MECHANISM_WIDTH, |c| c.extent() * c.effective_width().0, |c| c.smeared())
             .because_of(|c| {
                 let whose = if c.rough { "Prandtl's" } else { "Hill's" };
                 format!("{whose} mechanism; a jump of velocity is smeared over a cell on either side")
@@ -218,7 +238,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
         Check::truth("mean-stress", "σ_m at five points that of finite elements of vanishing size within h |∇σ_m|")
             .when(|c| c.yields() && c.no_limit().is_none())
             .unless(|c| (!c.rough).then(|| "the reference is that of a rough footing".to_owned()))
-            .unless(|c| c.unknown_width())
+            .unless(|c| c.other_points())
             .unless(|c| c.has_room().err())
             .each(MEAN_STRESSES.iter().map(|&(metric, point)| {
                 let known = move || mean_stress_at(point);
@@ -234,31 +254,34 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .when(|c| c.yields())
             .unless(|c| c.no_limit())
             .unless(|c| c.reference_curve().err())
-            .within(NC_B, |c| c.reference_limit(), |c| FEM * c.coarseness() * c.reference_limit())
+            .within(NC_B, |c| c.reference_limit(), |c| (FEM * c.coarseness() + c.embedded()) * c.reference_limit())
             .because_of(|c| c.reference_curve().map_or(String::new(), |curve| curve.name)),
         Check::truth("curve", "fbar-rate, fbar-consistent: q/s_u at the tabulated s/B that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
             .when(|c| c.has_limit() && c.no_limit().is_none())
+            .unless(|c| c.other_points())
             .own(load_curve),
         Check::known_limit("no-limit-load", "none: final growth of the load above 0.5 % per 10⁻³ of s/B")
-            .when(|c| c.locks() && c.no_limit().or_else(|| c.unknown_width()).is_none())
+            .when(|c| c.locks() && c.no_limit().or_else(|| c.other_points()).is_none())
             .above(PLATEAU_RISE, |_| FLAT.1)
             .because(LOCKS),
+        Check::known_limit("no-mechanism", "none, fbar-recursive: worst of limit-load and mechanism over their tolerance, where it exceeds one")
+            .when(|c| c.yields() && !c.has_limit() && c.no_limit().is_none() && c.worst_miss() > 1.0)
+            .above(Quantity::new(MECHANISM_WIDTH.name, |c: &Run<Footing>| c.worst_miss()), |_| 1.0)
+            .because_of(|c| if c.locks() { LOCKS } else { DIFFUSES }.to_owned()),
         Check::known_limit("rises-near-one-half", "fbar-rate, fbar-consistent at ν > 0.49: final growth of the load above 0.5 % per 10⁻³ of s/B")
             .when(|c| c.has_limit() && c.no_limit().is_none() && c.poisson_ratio > STATED)
             .above(PLATEAU_RISE, |_| FLAT.1)
             .because("Π is no projection: a change of volume that it sees in part keeps a share of a bulk modulus that grows without bound"),
-        Check::known_limit("locked", "none: load over the effective width of the footing above 2 + π by more than twice the tolerance of prandtl")
-            .when(|c| c.locks())
+        Check::known_limit("locked", "none: load over the effective width of the footing above 2 + π by more than twice the tolerance of prandtl; through a barrier or deep, once, where it is")
+            .when(|c| c.locks() && (c.other_points().is_none() || c.metric(NC_EFFECTIVE) > c.locked_load()))
             .unless(|c| c.no_limit())
-            .unless(|c| c.unknown_width())
-            .above(NC_EFFECTIVE, |c| (1.0 + LOCKED * PRANDTL * c.coarseness()) * EXACT)
+            .above(NC_EFFECTIVE, |c| c.locked_load())
             .because(LOCKS),
         Check::known_limit("soft-by-diffusion", "fbar-recursive: limit load over the effective width short of 2 + π by more than the tolerance of prandtl")
             .when(|c| c.remedy() == FbarRecursive && c.yields())
-            .unless(|c| c.no_limit())
-            .unless(|c| c.unknown_width())
+            .unless(|c| c.no_limit().or_else(|| c.other_points()))
             .above(Quantity::new(NC_EFFECTIVE.name, |c: &Run<Footing>| 1.0 - c.metric(NC_EFFECTIVE) / EXACT), |c| c.load_tolerance() / EXACT)
-            .because("Eq. (26) averages the average and so diffuses J̄ in time: pressures relax"),
+            .because(DIFFUSES),
         Check::known_limit("checkerboard", "none: rms(σ_m − Πσ_m) above 0.5 rms σ_m")
             .when(|c| c.locks() && c.no_limit().is_none())
             .above(CHECKERBOARD_RATIO, |_| BOARD.1)
