@@ -136,7 +136,9 @@ impl Beam<'_> {
     /// Relative distance of a frequency from the predicted one.
     fn slack(&self) -> f64 {
         let angle = SLENDER * self.h;
-        angle * angle / 6.0 + SECTIONS
+        // A beam that locks in bending shears instead, evenly or by Cowper's 5/6.
+        let sheared = 1.0 - self.metric(PREDICTED_RATIO).powi(2) / self.metric(STIFFNESS_RATIO);
+        angle * angle / 6.0 + SECTIONS.max(0.095 * sheared)
     }
 
     fn is_predicted(&self) -> bool {
