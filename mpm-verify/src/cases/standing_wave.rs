@@ -107,7 +107,7 @@ fn is_short(r: &Setup<()>) -> bool {
 /// Whether particles lose their order until the run breaks down.
 fn is_disordered(r: &Setup<()>) -> bool {
     let disorder = !is_short(r) || r.basis() == Gimp && r.level == "n16";
-    let at_walls = matches!(r.remedy(), FbarTotal | FbarRate) && r.values.is(WALL, WALL_LINE);
+    let at_walls = r.remedy() != FbarConsistent && r.values.is(WALL, WALL_LINE);
     (disorder || at_walls) && r.remedy() != RemedyName::None && !is_held(r)
 }
 
