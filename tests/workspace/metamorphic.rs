@@ -81,10 +81,12 @@ impl Run {
     }
 
     /// Whether both views of a scene are of one problem. Particles of the case `translate` come to lie on grid lines, where
-    /// linear functions have two slopes; that of the cell above is taken, which in a mirror is the one below.
+    /// linear functions have two slopes; that of the cell above is taken, which in a mirror is the one below. Serendipity
+    /// elements are oblong.
     fn defines(&self, change: &Change) -> bool {
-        let on_lines = self.case.name == "translate" && self.spec.scheme.basis() == BasisName::Linear;
-        !(on_lines && change.name.starts_with("mirror"))
+        let (basis, mirrored) = (self.spec.scheme.basis(), change.name.starts_with("mirror"));
+        let on_lines = self.case.name == "translate" && basis == BasisName::Linear;
+        !(on_lines && mirrored || basis == BasisName::Q8 && change.name == "turned")
     }
 
     /// A step with inertia on GIMP is not continuous where a domain begins to reach over a grid line.

@@ -111,7 +111,7 @@ fn limit(name: &str) -> ResultTable {
     let of_ratio = |ratio: f64| {
         let at = move |r: &Record| r.parameters.number(POISSON_RATIO) == ratio;
         [
-            Column::value(format!("ν = {ratio}"), tables::relative_error, share(1)).of(at),
+            Column::metric(format!("ν = {ratio}"), DISPLACEMENT_L2, SHORT).of(at),
             Column::value("steps", |r| r.work.steps as f64, fixed(0)).of(at),
             Column::value("CPU (s)", |r| r.time.cpu_s, fixed(1)).of(at),
         ]

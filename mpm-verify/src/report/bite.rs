@@ -25,8 +25,17 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
 }
 
 /// Known limits that say nothing of runs in which they do not show: each explains a miss, and demands none.
-const SHOWN_WHERE_SEEN: [&str; 7] =
-    ["locks", "coarse-bending", "front-missed", "beyond-bound", "damps", "motion-lost", "null-space-grows"];
+const SHOWN_WHERE_SEEN: [&str; 9] = [
+    "locks",
+    "coarse-bending",
+    "front-missed",
+    "beyond-bound",
+    "damps",
+    "motion-lost",
+    "null-space-grows",
+    "makes-energy",
+    "no-mechanism",
+];
 
 /// Whether a check is red on a run whose metric has another value: that of the check or, where the check is of a number that
 /// follows from the metric, as far from the metric's own as that of the check is from its own.

@@ -170,7 +170,7 @@ fn plan() -> Plan {
         .runs(Nightly, "h0.025", &both, "step_factor=100")
         // The speed of the paper's Figure 5, and steps as long as the contact.
         .runs(Pr, "h0.05", &[plain(Linear, Musl), plain(Gimp, Flip)], "speed=1")
-        .each(Pr, "h0.05", &both[..1], ["speed=1", "speed=1 step_factor=10"])
+        .runs(Pr, "h0.05", &both[..1], "speed=1 step_factor=10")
         .each(Nightly, "h0.05", &both, ["speed=1", "speed=1 step_factor=10", "speed=0.1 step_factor=100"])
         .each(Nightly, "h0.05", &both, ["speed=0.1", "speed=0.1 step_factor=10", "speed=0.02 step_factor=100"])
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")))
@@ -210,7 +210,7 @@ impl Run<'_, Discs> {
 
     /// Whether the collision takes at least five steps.
     fn is_resolved(&self) -> bool {
-        self.metric(IMPULSE_OF_A_STEP) <= RESOLVED
+        self.metric(IMPULSE_OF_A_STEP).max(0.0) <= RESOLVED
     }
 
     /// Bound on an exchange of energy within a step.

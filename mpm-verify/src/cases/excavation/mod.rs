@@ -167,6 +167,7 @@ fn plan() -> Plan {
     let midpoint = &moving[..1];
     let resting = implicit(&[QuasiStatic], &[Gimp, Bspline2], &none);
     let means = &resting[..1];
+    let bilinear = implicit(&[Midpoint, Newmark, QuasiStatic], &[Linear], &none);
     let two = "h0.1 h0.05";
     let three = "h0.1 h0.05 h0.025";
     Plan::of(LEVELS)
@@ -183,7 +184,8 @@ fn plan() -> Plan {
         .runs(Nightly, three, &resting, "gravity=step")
         .runs(Nightly, two, &resting, "residual=5e3")
         // The paper's bilinear elements.
-        .runs(Nightly, "h0.05", &implicit(&[Midpoint, Newmark, QuasiStatic], &[Linear], &none), "")
+        .runs(Nightly, two, &bilinear, "")
+        .runs(Long, "h0.025", &bilinear, "")
         .each(Nightly, two, midpoint, ["residual=5e3", "gravity=step", "base=friction"])
         .runs(Nightly, "h0.05", &moving[1..], "base=friction")
         .each(Nightly, three, means, ["base=friction", LATERAL])

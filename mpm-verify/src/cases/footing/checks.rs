@@ -274,7 +274,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .when(|c| c.has_limit() && c.no_limit().is_none() && c.poisson_ratio > STATED)
             .above(PLATEAU_RISE, |_| FLAT.1)
             .because("Π is no projection: a change of volume that it sees in part keeps a share of a bulk modulus that grows without bound"),
-        Check::known_limit("locked", "none: load over the effective width of the footing above 2 + π by more than twice the tolerance of prandtl; through a barrier or deep, once, where it is")
+        Check::known_limit("locked", "none: load over the effective width above 2 + π by more than twice prandtl's tolerance; by a barrier or deep, once, where it is")
             .when(|c| c.locks() && (c.other_points().is_none() || c.metric(NC_EFFECTIVE) > c.locked_load()))
             .unless(|c| c.no_limit())
             .above(NC_EFFECTIVE, |c| c.locked_load())

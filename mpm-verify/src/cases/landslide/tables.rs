@@ -89,7 +89,7 @@ fn studies() -> ResultTable {
             let toe = fixed(2).text(r.metric(RUNOUT_2_5S));
             format!("{toe} ({:.2} s)", r.metric(FAILURE_TIME))
         }
-        false => "–".to_owned(),
+        false => "stands".to_owned(),
     };
     ResultTable::of("landslide-studies", is_flip)
         .by(&[SCHEME, CELLS])

@@ -109,7 +109,7 @@ impl Problem<1> for Bar {
         let damping = setup.linear_viscosity + 2.0 * setup.quadratic_viscosity * setup.mach;
         let shorter = damping.hypot(1.0) + damping;
         let dt = courant_time_step(setup.cfl / shorter, setup.h, waves);
-        // Of the function at the wall, (1 − x/h)ᵏ, the slope at the first particle.
+        // The slope at the first particle of the function at the wall, (1 − x/h)ᵏ.
         let (degree, first) = (setup.basis().degree() as i32, 0.5 / setup.ppc_per_direction as f64);
         let pressed = speed * dt / setup.h * f64::from(degree) * (1.0 - first).powi(degree - 1);
         let why = "the strain of the first step at the wall, which would turn a particle inside out";

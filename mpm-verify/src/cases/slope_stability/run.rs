@@ -77,7 +77,7 @@ impl Setup<Stability> {
 
     /// Whether standard MPM locks. In equilibrium nothing overshoots, so that fine splines lock, too.
     pub(super) fn locks(&self) -> bool {
-        let locks = self.basis() == Gimp || self.h > FINE || self.is_implicit();
+        let locks = self.basis() == Gimp || self.h > FINE || self.is_implicit() && self.h >= FINE;
         self.remedy() == RemedyName::None && locks
     }
 
