@@ -268,7 +268,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because(LOCKS),
         Check::known_limit("no-mechanism", "none, fbar-recursive: worst of limit-load and mechanism over their tolerance, where it exceeds one")
             .when(|c| c.yields() && !c.has_limit() && c.no_limit().is_none() && c.worst_miss() > 1.0)
-            .above(Quantity::new(MECHANISM_WIDTH.name, |c: &Run<Footing>| c.worst_miss()), |_| 1.0)
+            .above(Quantity::new("worst miss", |c: &Run<Footing>| c.worst_miss()), |_| 1.0)
             .because_of(|c| if c.locks() { LOCKS } else { DIFFUSES }.to_owned()),
         Check::known_limit("rises-near-one-half", "fbar-rate, fbar-consistent at ν > 0.49: final growth of the load above 0.5 % per 10⁻³ of s/B")
             .when(|c| c.has_limit() && c.no_limit().is_none() && c.poisson_ratio > STATED)
