@@ -296,5 +296,5 @@ fn no_view_of_a_larger_scene_changes_it_in_a_step() {
 #[test]
 fn no_view_of_a_scene_changes_what_a_scheme_finds() {
     let schemes = all(|spec| spec.scheme);
-    require(&gate(schemes, 19_000, 20), 500, 230_000_000);
+    require(&gate(schemes, 17_500, 20), 500, 230_000_000);
 }
