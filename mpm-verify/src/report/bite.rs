@@ -25,7 +25,7 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
 }
 
 /// Known limits that say nothing of runs in which they do not show: each explains a miss, and demands none.
-const SHOWN_WHERE_SEEN: [&str; 9] = [
+const SHOWN_WHERE_SEEN: [&str; 8] = [
     "locks",
     "coarse-bending",
     "front-missed",
@@ -34,7 +34,6 @@ const SHOWN_WHERE_SEEN: [&str; 9] = [
     "motion-lost",
     "null-space-grows",
     "makes-energy",
-    "no-mechanism",
 ];
 
 /// Whether a check is red on a run whose metric has another value: that of the check or, where the check is of a number that
