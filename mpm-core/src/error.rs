@@ -1,6 +1,7 @@
 //! Typed errors of the solver.
 
 use crate::memory::MemoryError;
+use std::fmt;
 use thiserror::Error;
 
 /// Failure of a step, with the offending value.
@@ -78,6 +79,60 @@ impl Fault {
     }
 }
 
+/// Why a body finds no equilibrium, told by the motion that meets the least resistance. Places are in m, NaN along axes
+/// that the body has not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cause {
+    /// Not known: the matrix has no factors, or the solver does not look.
+    Unknown,
+    /// Functions at the rim move: place of a node, and the share of a cell that it sees.
+    Rim([f64; 3], f64),
+    /// The body, or a part of it, moves without strain: centre of what moves, and its share of the volume.
+    Loose([f64; 3], f64),
+    /// The body strains, most at a place, with a share of the elastic stiffness that is small or negative.
+    GivesWay([f64; 3], f64),
+    /// The body resists every motion, with this share of the elastic stiffness at least.
+    Sound(f64),
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let place = |at: &[f64; 3]| {
+            let along = at.iter().filter(|x| !x.is_nan()).map(|x| format!("{x:.4}"));
+            format!("({}) m", along.collect::<Vec<_>>().join(", "))
+        };
+        let percent = |share: f64| format!("{:.3} %", 100.0 * share);
+        match self {
+            Self::Unknown => Ok(()),
+            Self::Rim(at, seen) => {
+                let (at, seen) = (place(at), percent(*seen));
+                write!(to, "; a node at the rim, at {at}, that sees {seen} of a cell is loose: raise the ghost penalty")
+            }
+            Self::Loose(_, share) if *share > 0.999 => {
+                write!(to, "; the whole body can move without strain: add a support or a contact that holds it")
+            }
+            Self::Loose(at, share) => {
+                let (at, share) = (place(at), percent(*share));
+                write!(to, "; {share} of the body, around {at}, has come off: hold it, or end the run before")
+            }
+            Self::GivesWay(at, share) => {
+                let (at, share) = (place(at), percent(*share));
+                write!(
+                    to,
+                    "; the body gives way, most at {at}, with {share} of its elastic stiffness: the load is at its limit"
+                )
+            }
+            Self::Sound(share) => {
+                let share = percent(*share);
+                write!(
+                    to,
+                    "; the body resists every motion, with {share} of its elastic stiffness: take shorter load steps"
+                )
+            }
+        }
+    }
+}
+
 /// Errors in building or running a scene.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum Error {
@@ -106,7 +161,7 @@ pub enum Error {
     /// Newton's method found no equilibrium, however short the step. The run keeps the last equilibrium, from which
     /// another rule can continue by [`take_over`](crate::Simulation::take_over).
     #[error(
-        "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations"
+        "step {step}: no equilibrium found beyond t = {time} s, residual {residual:e} of the loads after {iteration} iterations{cause}"
     )]
     NoConvergence {
         /// Time at the start of the failed part of the step (s).
@@ -117,11 +172,13 @@ pub enum Error {
         iteration: u32,
         /// The residual over that of the loads.
         residual: f64,
+        /// Cause of the failure.
+        cause: Cause,
     },
     /// A stiffness matrix could not be factorised, or gave no finite solution, however short the step. The run stays as
     /// with [`NoConvergence`](Self::NoConvergence).
     #[error(
-        "step {step}: no equilibrium found beyond t = {time} s, the stiffness matrix is singular in iteration {iteration}"
+        "step {step}: no equilibrium found beyond t = {time} s, the stiffness matrix is singular in iteration {iteration}{cause}"
     )]
     Singular {
         /// Time at the start of the failed part of the step (s).
@@ -130,6 +187,8 @@ pub enum Error {
         step: u64,
         /// Iterations done.
         iteration: u32,
+        /// Cause of the failure.
+        cause: Cause,
     },
     /// Only a part of an external load acts on the body, or only a part of a drained area drains it.
     #[error("step {step} (t = {time} s): only {value} of the {what} ({whole}) acts on the body")]

@@ -98,7 +98,7 @@ pub mod work;
 
 pub use basis::Basis;
 pub use body::Body;
-pub use error::{Error, Fault};
+pub use error::{Cause, Error, Fault};
 pub use frame::Frame;
 pub use grid::{Axis, Grid, Side};
 pub use lattice::Lattice;

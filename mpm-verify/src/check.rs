@@ -1,6 +1,5 @@
 //! Checks of a case: each has a name of its own, and the data by which it is decided.
 
-use crate::metric::Metric;
 use crate::record::Record;
 use crate::verdict::{Kind, Outcome, Verdict};
 use serde::Serialize;
@@ -30,24 +29,7 @@ pub enum On {
     Study(OfStudy),
 }
 
-/// Checks by kind, name, what they demand and what decides them.
-macro_rules! checks {
-    ($($kind:ident $name:literal: $statement:expr => $on:expr;)*) => {
-        vec![$($crate::check::Check::$kind($name, $statement, $on)),*]
-    };
-}
-pub(crate) use checks;
-
 impl Check {
-    fn new(kind: Kind, name: &'static str, statement: &'static str, on: On) -> Self {
-        Self { name, kind, statement, on }
-    }
-
-    /// Check that a wrong solution passes as well, such as of its mass: it makes no run judged.
-    pub(crate) fn bookkeeping(name: &'static str, statement: &'static str, on: On) -> Self {
-        Self::new(Kind::Bookkeeping, name, statement, on)
-    }
-
     /// Verdicts on one run.
     #[must_use]
     pub fn of_run(&self, record: &Record) -> Vec<Verdict> {
@@ -73,29 +55,6 @@ impl Check {
 
     fn verdicts(&self, found: Vec<Finding>) -> Vec<Verdict> {
         found.into_iter().map(|f| f.verdict(self.name, self.kind)).collect()
-    }
-}
-
-/// A check on single runs: what it finds, if it says anything of a run.
-pub(crate) fn run<F: IntoIterator<Item = Finding>>(found: impl Fn(&Record) -> F + Send + Sync + 'static) -> On {
-    On::Run(Box::new(move |r| found(r).into_iter().collect()))
-}
-
-/// A metric of a run, to be held against something.
-pub(crate) fn judge(record: &Record, metric: Metric) -> Judged {
-    Judged { metric, value: record.metric(metric) }
-}
-
-/// See [`judge`].
-pub(crate) struct Judged {
-    metric: Metric,
-    value: f64,
-}
-
-impl Judged {
-    /// |value − reference| ≤ tolerance.
-    pub(crate) fn within(self, reference: f64, tolerance: f64, why: impl Into<String>) -> Finding {
-        Finding::within(self.metric, self.value, reference, tolerance, why)
     }
 }
 

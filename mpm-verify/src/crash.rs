@@ -160,7 +160,6 @@ fn a_file_is_the_old_or_the_new_one() {
 struct Deaf;
 
 impl Listener for Deaf {
-    fn progress(&self, _: usize, _: f64) {}
     fn begins_again(&self, _: usize, _: &Error) {}
     fn ended(&self, _: usize, _: &Record) {}
 }

@@ -16,6 +16,7 @@ mod crash;
 pub mod demand;
 pub mod draw;
 pub mod error;
+pub mod factor;
 pub(crate) mod figure;
 pub mod files;
 pub mod foreign;

@@ -2,7 +2,6 @@
 
 use super::algebra::dot;
 use super::domains::Domains;
-use super::extension::Shares;
 use super::functions::Functions;
 use super::interpolation::Interpolation;
 use crate::parallel::for_each_piece;
@@ -93,58 +92,6 @@ impl<const D: usize> Elements<D> {
             elements.first.push(elements.w.len());
         }
         elements
-    }
-
-    /// The same where nodes follow others by their shares: functions of those that are followed take up those of the
-    /// followers.
-    pub(crate) fn extended(&self, shares: &Shares) -> Self {
-        let mut extended = Self {
-            particles: self.particles.clone(),
-            node: Vec::new(),
-            first_node: vec![0],
-            element: self.element.clone(),
-            w: Vec::new(),
-            dw: Vec::new(),
-            first: vec![0],
-            rounding: self.rounding,
-        };
-        for (element, run) in self.particles.iter().enumerate() {
-            // Place among the new functions, and share, of every function so far.
-            let mut nodes: Vec<usize> = Vec::new();
-            let mut place = |node: usize| {
-                let known = nodes.iter().position(|n| *n == node);
-                known.unwrap_or_else(|| {
-                    nodes.push(node);
-                    nodes.len() - 1
-                })
-            };
-            let parts: Vec<Vec<(usize, f64)>> = self
-                .nodes_of(element)
-                .iter()
-                .map(|node| match &shares[*node][..] {
-                    [] => vec![(place(*node), 1.0)],
-                    followed => followed.iter().map(|(n, s)| (place(*n), *s)).collect(),
-                })
-                .collect();
-            for p in run.clone() {
-                let begin = extended.w.len();
-                extended.w.resize(begin + nodes.len(), 0.0);
-                extended.dw.resize(begin + nodes.len(), [0.0; D]);
-                let (_, w, dw) = self.seen(p);
-                for ((w, dw), parts) in w.iter().zip(dw).zip(&parts) {
-                    for (place, share) in parts {
-                        extended.w[begin + place] += share * w;
-                        for (sum, slope) in extended.dw[begin + place].iter_mut().zip(dw) {
-                            *sum += share * slope;
-                        }
-                    }
-                }
-                extended.first.push(extended.w.len());
-            }
-            extended.node.extend(nodes);
-            extended.first_node.push(extended.node.len());
-        }
-        extended
     }
 
     /// Σ w `of` of every one of `nodes` nodes, such as its volume or mass; NaN of one that no element has.

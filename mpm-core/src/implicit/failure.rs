@@ -1,6 +1,6 @@
 //! Failure of a step, and its division into parts that succeed.
 
-use crate::error::{Error, Fault};
+use crate::error::{Cause, Error, Fault};
 use crate::ledger::Ledger;
 
 /// Why a step has no solution.
@@ -18,11 +18,11 @@ pub(crate) enum Failure {
 
 impl Failure {
     /// Error of the present step of a run, whose particles have the identities `ids`.
-    pub(crate) fn error(self, ledger: &Ledger, ids: &[u32]) -> Error {
+    pub(crate) fn error(self, ledger: &Ledger, ids: &[u32], cause: Cause) -> Error {
         let (time, step) = (ledger.time, ledger.work.steps);
         match self {
-            Self::NoConvergence(iteration, residual) => Error::NoConvergence { time, step, iteration, residual },
-            Self::Singular(iteration) => Error::Singular { time, step, iteration },
+            Self::NoConvergence(iteration, residual) => Error::NoConvergence { time, step, iteration, residual, cause },
+            Self::Singular(iteration) => Error::Singular { time, step, iteration, cause },
             Self::Particle(index, fault) => ledger.breakdown(ids, index, fault),
             Self::Lost(what, value, whole) => Error::Lost { time, step, what, value, whole },
         }

@@ -65,12 +65,45 @@ impl<const D: usize> Cells<D> {
             !self.active[self.place(&neighbour)]
         })
     }
+
+    /// Counts cells as the body's by which parts of it that touch at an edge or a corner alone share faces: no face ties
+    /// them else.
+    fn bridge(&mut self) {
+        // Blocks of two cells along two axes, then along three.
+        for axes in (0..1_usize << D).filter(|axes| axes.count_ones() > 1) {
+            let corners: Vec<usize> = (0..1 << D).filter(|k| k & !axes == 0).collect();
+            let block = |first: usize| {
+                let corner = |k: &usize| {
+                    let mut cell = self.cell(first);
+                    for a in (0..D).filter(|a| k >> a & 1 == 1) {
+                        cell[a] = self.next(a, cell[a])?;
+                    }
+                    Some(self.place(&cell))
+                };
+                let places: Option<Vec<usize>> = corners.iter().map(corner).collect();
+                places.filter(|places| {
+                    let full = |k: &usize| corners.iter().position(|c| c == k).is_some_and(|n| self.active[places[n]]);
+                    let mut apart: Vec<usize> = corners.iter().copied().filter(full).collect();
+                    let mut reached: Vec<usize> = apart.pop().into_iter().collect();
+                    while let Some(k) = reached.pop() {
+                        reached.extend(apart.extract_if(.., |other| (*other ^ k).is_power_of_two()));
+                    }
+                    !apart.is_empty()
+                })
+            };
+            for place in (0..self.active.len()).filter_map(block).flatten().collect::<Vec<_>>() {
+                self.active[place] = true;
+            }
+        }
+    }
 }
 
-/// Penalties of the faces near the edge of the body on a field with this many `components`, with γ E the `strength`.
+/// Penalties of the faces near the edge of the body on a field with this many `components`, with γ E the `strength`, of
+/// which a face has the least `share` of the particles in its two cells; all of it without shares.
 pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     lattice: &Lattice<D, S, B>,
     strength: f64,
+    share: &[f64],
     components: usize,
     domains: Domains<D>,
 ) -> Vec<Penalty> {
@@ -78,7 +111,8 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     let axes: [AxisPieces; D] = std::array::from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
     let degree = axes[0].degree;
     let mut cells = Cells { active: vec![false; axes.iter().map(|a| a.top.len()).product()], axes };
-    for (x, half_size) in domains.iter() {
+    let mut least = vec![1.0_f64; cells.active.len()];
+    for (p, (x, half_size)) in domains.iter().enumerate() {
         let stencil = lattice.stencil(x, &half_size);
         let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
         for k in 0..touched.iter().product() {
@@ -90,8 +124,10 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
             });
             let place = cells.place(&cell);
             cells.active[place] = true;
+            least[place] = least[place].min(share.get(p).copied().unwrap_or(1.0));
         }
     }
+    cells.bridge();
     let at_edge: Vec<bool> =
         (0..cells.active.len()).map(|place| cells.active[place] && cells.at_edge(&cells.cell(place))).collect();
     let mut first_node = usize::MAX;
@@ -115,6 +151,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
             if !(cells.active[place] && cells.active[other] && (at_edge[place] || at_edge[other])) {
                 continue;
             }
+            let scale = scale * least[place].min(least[other]);
             let axis = &cells.axes[normal];
             let mut jump = vec![0.0; degree + 2];
             for k in 0..=degree {
@@ -146,7 +183,11 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
             }
             let node = (0..functions).map(|k| {
                 let index = split(k);
-                (0..D).fold(first_node, |node, a| node + (cell[a] + index[a]) * strides[a])
+                (0..D).fold(first_node, |node, a| {
+                    let (at, n) = (cell[a] + index[a], cells.count(a));
+                    // A face where an axis closes has functions beyond the last image.
+                    node + if cells.axes[a].periodic && at >= n { at - n } else { at } * strides[a]
+                })
             });
             found.push(Penalty { node: node.collect(), stiffness });
         }
@@ -172,8 +213,26 @@ mod tests {
             let grid = Grid::new(1.0, [axis, Axis::open(0.0, CELLS)]).unwrap();
             let lattice = Lattice::<2, 2, Linear>::new(grid, WallTreatment::OpenKnot);
             let domains = Domains { centre: &centre, half_size };
-            let found = penalties(&lattice, 1.0, 1, domains);
+            let found = penalties(&lattice, 1.0, &[], 1, domains);
             assert_eq!(found.len(), CELLS + 2 * in_a_row);
+            let last = lattice.len();
+            assert!(found.iter().flat_map(|p| &p.node).all(|node| *node < last));
         }
+    }
+
+    /// Two cells that touch at a corner, in the plane and in space, are tied through the cells between them.
+    #[test]
+    fn cells_that_touch_at_a_corner_share_faces() {
+        fn faces<const D: usize>(cells: &[[f64; D]]) -> usize {
+            let grid = Grid::new(1.0, [Axis::open(0.0, 4); D]).unwrap();
+            let lattice = Lattice::<D, 2, Linear>::new(grid, WallTreatment::OpenKnot);
+            let half_size = HalfSizes::OfAll([0.25; D]);
+            penalties(&lattice, 1.0, &[], 1, Domains { centre: cells, half_size }).len()
+        }
+        assert_eq!(faces(&[[0.5, 0.5], [1.5, 1.5]]), 4);
+        assert_eq!(faces(&[[0.5, 1.5], [1.5, 0.5]]), 4);
+        assert_eq!(faces(&[[0.5, 0.5], [2.5, 0.5]]), 0);
+        assert_eq!(faces(&[[0.5, 0.5, 0.5], [1.5, 1.5, 1.5]]), 12);
+        assert_eq!(faces(&[[0.5, 0.5, 0.5], [1.5, 1.5, 0.5]]), 4);
     }
 }

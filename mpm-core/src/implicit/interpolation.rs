@@ -1,12 +1,11 @@
 //! Interface of the functions on a grid for the implicit solver.
 
 use super::domains::Domains;
-use super::extension::{Nodes, Shares};
 use super::functions::Functions;
+use super::ghost;
 use super::penalty::Penalty;
 use super::pieces::Pieces;
 use super::settings::Stabilisation;
-use super::{extension, ghost};
 use crate::basis::{Gimp, Linear, WallTreatment};
 use crate::error::Error;
 use crate::grid::Grid;
@@ -61,12 +60,8 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     fn points(&self) -> usize;
 
     /// Ghost penalty of a field of this many `components` where `domains` are, with γ E the `strength` (Pa, or the
-    /// equivalent of a field of another kind), of functions that offer it.
-    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty>;
-
-    /// The shares by which nodes that see hardly any material follow others, of functions that offer the
-    /// [extension](Stabilisation::Extension).
-    fn extension(&self, nodes: &Nodes) -> Shares;
+    /// equivalent of a field of another kind) and the `share` of it at every particle, or all, of functions that offer it.
+    fn ghost(&self, strength: f64, share: &[f64], components: usize, domains: Domains<D>) -> Vec<Penalty>;
 }
 
 /// Hats, or their means over the domains of particles.
@@ -133,7 +128,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
             Stabilisation::Soft(factor) if !B::POINTWISE => Err(Error::Input {
                 what: "soft stiffness for functions that depend on a particle's size, factor",
                 value: factor,
-                allowed: "none, ghost or extension; soft with linear functions and B-splines",
+                allowed: "none or ghost; soft with linear functions and B-splines",
             }),
             _ => Ok(()),
         }
@@ -143,11 +138,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         S
     }
 
-    fn ghost(&self, strength: f64, components: usize, domains: Domains<D>) -> Vec<Penalty> {
-        ghost::penalties(self, strength, components, domains)
-    }
-
-    fn extension(&self, nodes: &Nodes) -> Shares {
-        extension::shares(self, nodes)
+    fn ghost(&self, strength: f64, share: &[f64], components: usize, domains: Domains<D>) -> Vec<Penalty> {
+        ghost::penalties(self, strength, share, components, domains)
     }
 }

@@ -10,13 +10,13 @@
 
 pub(crate) mod algebra;
 mod average;
+mod cause;
 mod commit;
 mod contact;
 mod domains;
 mod dynamics;
 pub(crate) mod elements;
 mod equilibrium;
-mod extension;
 pub(crate) mod failure;
 mod functions;
 mod ghost;
@@ -37,24 +37,25 @@ mod system;
 pub(crate) mod unknowns;
 
 pub use domains::{Domains, HalfSizes};
-pub use extension::{Nodes, Shares};
 pub use functions::Functions;
 pub use interpolation::{Interpolation, OfHats};
 pub use penalty::{Moduli, Penalty};
 pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
-pub use settings::{Remedy, Settings, Stabilisation, TimeRule};
+pub use settings::{GHOST, Remedy, Settings, Stabilisation, TimeRule};
 
 use crate::body::Body;
-use crate::error::Error;
+use crate::error::{Cause, Error};
 use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Reaction, Totals};
+use crate::parallel::{LIGHT, map};
 use crate::particles::Particles;
 use crate::scene::Part;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
+use crate::space::embed;
 use crate::tensor::SymmetricTensor;
 use average::Average;
 use contact::Obstacle;
@@ -64,9 +65,12 @@ use failure::{Failure, in_parts};
 use held::Held;
 use inertia::Inertia;
 use linear::{Direct, Linear};
-use nalgebra::SVector;
+use nalgebra::{Matrix3, SVector};
 use system::System;
 use unknowns::{Pattern, Unknowns};
+
+/// Least share of the elastic stiffness that the ghost penalty of ground that flows is made of.
+const FLOWS: f64 = 1e-3;
 
 /// The quasi-static solver for one body on the functions `I`.
 pub struct Solver<const D: usize, I, M: Law> {
@@ -198,14 +202,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
-        let mut elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
-        if self.settings.stabilisation == Stabilisation::Extension {
-            let volume = elements.sums(self.functions.len(), &particles.volume);
-            let any = |of: &[Option<Held>; D]| of.iter().any(Option::is_some);
-            let held: Vec<bool> = self.held.iter().map(any).collect();
-            let nodes = Nodes { originals: &self.originals, volume: &volume, held: &held };
-            elements = elements.extended(&self.functions.extension(&nodes));
-        }
+        let elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
         let average = Average::new(&elements, self.functions.len(), &particles.volume);
         (elements, average)
     }
@@ -217,10 +214,11 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let mut sizes = Vec::new();
         let within = Domains::of(particles).within(&mut sizes);
         let mut penalties = match self.settings.stabilisation {
-            Stabilisation::None | Stabilisation::Extension => Vec::new(),
-            Stabilisation::Ghost(factor) => {
+            Stabilisation::None => Vec::new(),
+            Stabilisation::Ghost(factor) => self.functions.ghost(factor * self.moduli.young(), &[], D, within),
+            Stabilisation::Following(factor) => {
                 let strength = factor * self.moduli.young();
-                self.functions.ghost(strength, D, within)
+                self.functions.ghost(strength, &self.kept_stiffness(&elements, dt), D, within)
             }
             Stabilisation::Soft(factor) => soft::penalties(&self.functions, factor, self.moduli),
         };
@@ -248,6 +246,25 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             pattern,
             average: averages.then_some(average),
         }
+    }
+
+    /// Shares of the elastic shear stiffness that the particles of a body that yields keep along the increments of the
+    /// part before: a ghost penalty of the elastic stiffness would resist flow. Empty where nothing has yielded.
+    fn kept_stiffness(&self, elements: &Elements<D>, dt: f64) -> Vec<f64> {
+        let (body, mu) = (&self.scene.body, self.moduli.mu);
+        if self.advance.is_empty() || body.plastic_strain().iter().all(|strain| *strain == 0.0) {
+            return Vec::new();
+        }
+        let u: Vec<[f64; D]> = self.advance.iter().map(|rate| rate.map(|rate| rate * dt)).collect();
+        let stress = |p: usize, f: &Matrix3<f64>| body.law.update(f, dt, &body.states()[p]).0.to_matrix();
+        let deviator = |m: Matrix3<f64>| (m - Matrix3::identity() * (m.trace() / 3.0)).norm();
+        map(body.particles.len(), LIGHT, |p| {
+            let f = embed(&elements.deformation(p, &u));
+            let strain = deviator((f + f.transpose()) * 0.5);
+            let change = deviator(stress(p, &f) - stress(p, &Matrix3::identity()));
+            let elastic = 2.0 * mu * strain;
+            if elastic > 0.0 { (change / elastic).clamp(FLOWS, 1.0) } else { 1.0 }
+        })
     }
 
     /// Puts the particles that the same nodes see side by side.
@@ -326,9 +343,13 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         Ok(())
     }
 
-    fn error(&self, failure: Failure) -> Error {
-        let ids = &self.scene.body.particles.id;
-        failure.error(&self.ledger, ids)
+    fn error(&mut self, failure: Failure) -> Error {
+        let cause = match failure {
+            Failure::NoConvergence(..) => self.cause(true),
+            Failure::Singular(_) => self.cause(false),
+            Failure::Particle(..) | Failure::Lost(..) => Cause::Unknown,
+        };
+        failure.error(&self.ledger, &self.scene.body.particles.id, cause)
     }
 }
 

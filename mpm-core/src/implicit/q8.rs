@@ -4,8 +4,6 @@
 //! stand on a lattice of half the elements' size, whose points in the middle of elements are no nodes.
 
 use super::domains::Domains;
-use super::extension;
-use super::extension::{Nodes, Shares};
 use super::functions::Functions;
 use super::interpolation::Interpolation;
 use super::penalty::Penalty;
@@ -130,15 +128,10 @@ impl Interpolation<2> for Serendipity {
 
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error> {
         match stabilisation {
-            Stabilisation::Ghost(factor) => Err(Error::Input {
+            Stabilisation::Ghost(factor) | Stabilisation::Following(factor) => Err(Error::Input {
                 what: "ghost penalty of serendipity elements, factor",
                 value: factor,
                 allowed: "none or soft: their derivatives jump across all faces",
-            }),
-            Stabilisation::Extension => Err(Error::Input {
-                what: "extension of serendipity elements, threshold",
-                value: extension::HARDLY,
-                allowed: "none or soft: mid-side functions have no linear extension by neighbours along an axis",
             }),
             _ => Ok(()),
         }
@@ -149,13 +142,8 @@ impl Interpolation<2> for Serendipity {
     }
 
     /// Not [offered](Self::offers).
-    fn ghost(&self, _strength: f64, _components: usize, _domains: Domains<2>) -> Vec<Penalty> {
+    fn ghost(&self, _strength: f64, _share: &[f64], _components: usize, _domains: Domains<2>) -> Vec<Penalty> {
         Vec::new()
-    }
-
-    /// Not [offered](Self::offers): every node has its own unknowns.
-    fn extension(&self, nodes: &Nodes) -> Shares {
-        vec![Vec::new(); nodes.volume.len()]
     }
 }
 

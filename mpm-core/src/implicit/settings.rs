@@ -2,8 +2,8 @@
 
 use crate::error::{Error, positive, require};
 
-/// Stabilisation of functions that see hardly any material. Penalties act on the increment of a step, so that their
-/// contribution to equilibrium vanishes with the step; an extension adds nothing.
+/// Stabilisation of functions that see hardly any material. It acts on the increment of a step, so that its contribution
+/// to equilibrium vanishes with the step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stabilisation {
     /// Nothing.
@@ -11,11 +11,25 @@ pub enum Stabilisation {
     /// Jumps of the k-th normal derivative of the increment, k the degree, on the faces of cells at the edge of the
     /// body: γ E h^(2k−1) ∫ \[∂ₙᵏu\] · \[∂ₙᵏv\]. γ is given.
     Ghost(f64),
+    /// The same, but where ground flows of the stiffness that it keeps: `docs/implicit.md`. γ is given.
+    Following(f64),
     /// The elastic stiffness of the whole mesh, integrated by Gauss' rule, times this factor: the paper's.
     Soft(f64),
-    /// Functions that see less than a tenth of what a full one does move as a linear field through inner ones.
-    Extension,
 }
+
+impl Stabilisation {
+    /// The ghost penalty of scenes, γ = 10⁻²: derived in `docs/implicit.md`.
+    pub const GHOST: Self = Self::Following(GHOST);
+
+    /// A ghost penalty γ; none of zero.
+    #[must_use]
+    pub fn ghost(factor: f64) -> Self {
+        if factor == 0.0 { Self::None } else { Self::Ghost(factor) }
+    }
+}
+
+/// γ of the ghost penalty of scenes, a share of Young's modulus: derived in `docs/implicit.md`.
+pub const GHOST: f64 = 1e-2;
 
 /// Locking remedies of a quasi-static run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -146,22 +160,6 @@ impl Settings {
         Self { remedy, ..self }
     }
 
-    /// With local damping by the fraction `alpha`, as [`LocalDamping`](crate::stage::LocalDamping) is of the explicit
-    /// solver: only that which does nothing.
-    ///
-    /// # Errors
-    /// A fraction other than zero, with the reason.
-    pub fn locally_damped(self, alpha: f64) -> Result<Self, Error> {
-        require(
-            alpha == 0.0,
-            "local damping of an implicit run",
-            alpha,
-            "0: -alpha |F| sign(v) is not differentiable, so a step may have no solution; lagged by a step, it does not come \
-             to rest. Static steps find the state of rest",
-        )?;
-        Ok(self)
-    }
-
     pub(super) fn check(&self) -> Result<(), Error> {
         positive(self.dt, "load step", "positive (s)")?;
         self.rule.check()?;
@@ -173,8 +171,8 @@ impl Settings {
             "from 1e-13 to 1e-2",
         )?;
         match self.stabilisation {
-            Stabilisation::None | Stabilisation::Extension => Ok(()),
-            Stabilisation::Ghost(factor) | Stabilisation::Soft(factor) => {
+            Stabilisation::None => Ok(()),
+            Stabilisation::Ghost(factor) | Stabilisation::Following(factor) | Stabilisation::Soft(factor) => {
                 require(factor > 0.0 && factor <= 1.0, "factor of the stabilisation", factor, "above 0, at most 1")
             }
         }

@@ -33,8 +33,8 @@ macro_rules! every_basis {
 }
 
 // After the macro, which it uses.
+mod cause;
 mod contact;
-mod damping;
 mod dynamics;
 mod friction;
 mod guess;
@@ -131,10 +131,8 @@ fn turns_without_stress<const D: usize, I: Interpolation<D>, M: Law + Clone>(law
     let mut gradient = SMatrix::<f64, D, D>::zeros();
     (gradient[(0, 0)], gradient[(1, 1)]) = (cos - 1.0, cos - 1.0);
     (gradient[(0, 1)], gradient[(1, 0)]) = (-sin, sin);
-    for stabilisation in [Stabilisation::Ghost(0.01), Stabilisation::Extension] {
-        for stress in patch::<D, I, M>(law, gradient, CENTRE, stabilisation) {
-            assert!(stress.norm() < 1e-12 * YOUNG, "{stress:?}");
-        }
+    for stress in patch::<D, I, M>(law, gradient, CENTRE, Stabilisation::Ghost(0.01)) {
+        assert!(stress.norm() < 1e-12 * YOUNG, "{stress:?}");
     }
 }
 
@@ -306,7 +304,7 @@ fn reactions_balance_the_weight() {
 }
 
 /// A body with one more particle in a cell of its own, the only one that six unknowns see.
-fn loner(stabilisation: Stabilisation) -> f64 {
+fn with_a_loner() -> Scene<2, Hencky> {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let axis = Axis::bounded(0.0, CELLS + 2, (Side::Wall, Side::Open));
     let mut scene = filled([axis; 2], CELLS, Places::Uniform, law);
@@ -315,14 +313,17 @@ fn loner(stabilisation: Stabilisation) -> f64 {
     positions.push([H * (CELLS as f64 + 0.1), H * 2.1]);
     let more = Particles::new(positions, p.reference_volume[0], 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law, more).unwrap();
-    let wall = Wall::new(0, End::Lo, WallKind::Fixed);
+    scene.constrain(Wall::new(0, End::Lo, WallKind::Fixed))
+}
+
+fn loner(stabilisation: Stabilisation) -> f64 {
     let settings = Settings::new(1.0).stabilised(stabilisation);
-    Solver::<2, Quadratics<2>, _>::new(scene.constrain(wall), settings).unwrap().condition()
+    Solver::<2, Quadratics<2>, _>::new(with_a_loner(), settings).unwrap().condition()
 }
 
 #[test]
 fn stabilisations_bound_the_condition() {
-    let bounded = [Stabilisation::Ghost(0.01), Stabilisation::Soft(0.01), Stabilisation::Extension];
+    let bounded = [Stabilisation::GHOST, Stabilisation::Soft(0.01)];
     let found = bounded.map(loner);
     assert!(found.iter().all(|c| *c < 1e6), "{found:?}");
     assert!(loner(Stabilisation::None) > 1e12);

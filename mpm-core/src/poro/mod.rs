@@ -26,7 +26,7 @@ pub use plate::Plate;
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
 pub use water::{Conductivity, Gravity, Source, Water};
 
-use crate::error::Error;
+use crate::error::{Cause, Error};
 use crate::implicit::elements::{Elements, of_domains};
 use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
@@ -242,12 +242,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
                 _ => runs.push(p..p + 1),
             }
         }
-        // Strengths of the ghost penalties of pressures (m²/Pa), on the pressures and on their increments.
         let flow = self.water.initial_conductivity() * dt;
-        let cell = self.water_space.functions.grid().h;
-        let on_all = self.settings.ghost_pressure * flow;
-        let on_increments = self.settings.ghost_increment * (flow + cell * cell / self.moduli.mu);
-        let strengths = [self.settings.ghost_displacement * self.moduli.mu, on_all + on_increments];
+        let strengths = [self.settings.ghost_displacement * self.moduli.mu, self.settings.ghost_pressure * flow];
         // Cells that a domain touches by rounding alone are no part of the body: their nodes are no unknowns.
         let mut sizes = Vec::new();
         let within = self.pores.domains(particles).within(&mut sizes);
@@ -256,7 +252,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             if strengths[k] == 0.0 {
                 return Vec::new();
             }
-            let mut ghosts = space.functions.ghost(strengths[k], components, within);
+            let mut ghosts = space.functions.ghost(strengths[k], &[], components, within);
             for node in ghosts.iter_mut().flat_map(|g| &mut g.node) {
                 *node = space.originals[*node];
             }
@@ -277,7 +273,6 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             pattern: unknowns::pattern(unknowns.count, &all),
             inflow: self.inflow(&water, dt),
             before: self.before(&water, &unknowns),
-            of_increments: if on_increments > 0.0 { on_increments / strengths[1] } else { 0.0 },
             fluctuations: if projects { self.fluctuations(&water) } else { Vec::new() },
             solid,
             water,
@@ -374,7 +369,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
 
     fn error(&self, failure: Failure) -> Error {
         let ids = &self.scene.body.particles.id;
-        failure.error(&self.ledger, ids)
+        failure.error(&self.ledger, ids, Cause::Unknown)
     }
 }
 

@@ -65,9 +65,6 @@ pub struct Settings {
     /// Ghost penalty of the pressure, over κ Δt of undeformed material: that of Pretti et al., on all of p. 0.01 is
     /// enough.
     pub ghost_pressure: f64,
-    /// Ghost penalty of the pressure's increment, over κ Δt + h²/G of undeformed material, with the pressure's cells h:
-    /// dearer than that on p, and not better (docs/poromechanics.md).
-    pub ghost_increment: f64,
     /// A step has converged when the residuals of both equations are at most this share of what they balance.
     pub tolerance: f64,
     /// A step that takes more Newton iterations is halved.
@@ -89,7 +86,6 @@ impl Settings {
             predictor: Predictor::Particles,
             ghost_displacement: 0.0,
             ghost_pressure: 0.0,
-            ghost_increment: 0.0,
             tolerance: 1e-9,
             most_iterations: 40,
             most_halvings: 8,
@@ -136,15 +132,9 @@ impl Settings {
         Self { ghost_displacement: displacement, ghost_pressure: pressure, ..self }
     }
 
-    /// With a ghost penalty on the pressure's increments.
-    #[must_use]
-    pub fn ghost_on_increments(self, share: f64) -> Self {
-        Self { ghost_increment: share, ..self }
-    }
-
     /// Whether something acts on what pressures change by.
     pub(super) fn watches_increments(&self) -> bool {
-        self.ghost_increment > 0.0 || matches!(self.pressure_space, PressureSpace::Projected { .. })
+        matches!(self.pressure_space, PressureSpace::Projected { .. })
     }
 
     pub(super) fn check(&self, conservative: bool) -> Result<(), Error> {
@@ -162,7 +152,6 @@ impl Settings {
         for (what, share) in [
             ("ghost penalty of the displacement", self.ghost_displacement),
             ("ghost penalty of the pressure", self.ghost_pressure),
-            ("ghost penalty of increments of the pressure", self.ghost_increment),
         ] {
             require((0.0..=10.0).contains(&share), what, share, "from 0 to 10")?;
         }

@@ -41,8 +41,6 @@ pub(super) struct Setting<const D: usize> {
     pub(super) inflow: Vec<f64>,
     /// Pressures of the nodes at the start (Pa), from which increments are measured; zero where none is.
     pub(super) before: Vec<f64>,
-    /// The share of the ghost penalties of pressures that acts on increments.
-    pub(super) of_increments: f64,
     /// Forces of loads on the nodes (N), at the end of the step.
     pub(super) external: Vec<SVector<f64, D>>,
 }
@@ -224,9 +222,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
                 water[*node] += SVector::from([out, out.abs(), share * size]);
             }
         }
-        let since = |(p, before): (&f64, &f64)| p - setting.of_increments * before;
-        let since: Vec<f64> = p.iter().zip(&setting.before).map(since).collect();
-        add_penalties(&setting.ghosts[1], &since, 1, |i, volume| {
+        add_penalties(&setting.ghosts[1], &p, 1, |i, volume| {
             water[i][0] += volume;
         });
         let size = |forces: &[SVector<f64, D>]| -> f64 { forces.iter().map(SVector::norm_squared).sum::<f64>().sqrt() };

@@ -211,8 +211,6 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
     let ghost = settings.ghosts(-1.0, 0.0);
     refused(Water::new(POROSITY, some), ghost, "ghost penalty");
-    let ghost = settings.ghost_on_increments(-1.0);
-    refused(Water::new(POROSITY, some), ghost, "of increments");
     let none = PressureSpace::Projected { strength: 0.0 };
     let settings = settings.pressure_space(none);
     refused(Water::new(POROSITY, some), settings, "projection");

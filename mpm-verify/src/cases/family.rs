@@ -1,6 +1,5 @@
 //! Families of runs that several problems have.
 
-use crate::case::Tier;
 use crate::prelude::*;
 
 /// Every basis.
@@ -25,16 +24,6 @@ pub(super) fn levels<const N: usize>(side: f64, names: [(&'static str, f64); N])
 pub(super) fn remedy_cost(spec: &RunSpec, costs: [f64; 5]) -> f64 {
     let of = REMEDIES.into_iter().zip(costs).find(|(remedy, _)| *remedy == spec.scheme.remedy());
     of.map_or(1.0, |(_, cost)| cost)
-}
-
-/// Runs of `schemes` at `levels` with the parameters `set`, from the tier `tier` on.
-pub(super) fn family(tier: Tier, levels: &[Level], schemes: &[Scheme], set: &'static [&'static str]) -> Family {
-    Family {
-        tier,
-        levels: levels.to_vec(),
-        schemes: schemes.to_vec(),
-        set: set.iter().map(|s| (*s).to_owned()).collect(),
-    }
 }
 
 /// Every pair of a basis and a remedy, with FLIP.
@@ -85,6 +74,7 @@ pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::case::Tier;
     use crate::cases;
     use crate::parameter::Parameters;
     use crate::spec::RunSpec;

@@ -1,7 +1,7 @@
 //! The command `bench`: speed.
 
 use super::*;
-use crate::progress;
+use crate::progress::Teller;
 use clap::builder::{PossibleValuesParser, RangedU64ValueParser};
 use mpm_verify::bench::{self, Peers};
 
@@ -36,11 +36,8 @@ impl Bench {
             peers: self.peers.map(|_| Peers::taichi(self.python)),
         };
         let _held = hold(&self.out)?;
-        let bar = progress::single("bench", true);
-        let text = bench::measure(&options, &self.out, &|share| {
-            bar.set_position((share * progress::SCALE) as u64);
-        })?;
-        bar.finish_and_clear();
+        let teller = Teller::new("bench", true);
+        let text = bench::measure(&options, &self.out, &|share| teller.hear(|_| format!("{:.0} %", 100.0 * share)))?;
         say(&text)?;
         Ok(ExitCode::Good)
     }

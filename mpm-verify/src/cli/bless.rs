@@ -53,7 +53,6 @@ impl Bless {
         }
         let listener = progress::Runs::new(candidates.twin_names(), true);
         let blessed = candidates.bless(&gathered, &goldens, (reason, &self.allow), workers, &listener)?;
-        listener.finish();
         let (told, code) = match blessed {
             Blessing::Done(count) => (format!("{count} goldens blessed: {reason}\n"), ExitCode::Good),
             Blessing::Broken(told) => (told, ExitCode::RunFailed),

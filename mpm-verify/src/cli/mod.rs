@@ -4,6 +4,7 @@ mod bench;
 mod bless;
 mod diff;
 mod explain;
+mod factor;
 mod keep;
 mod run;
 mod score;
@@ -72,6 +73,8 @@ pub(crate) enum Command {
     Run(run::Run),
     /// Run your own scene from a file and, with --out, draw it
     Scene(run::Scene),
+    /// Divide the strength of your own scene until it fails: its factor of safety
+    Factor(factor::Factor),
     /// Judge the result of another code and compare it with our runs
     Score(score::Score),
     /// Write the input of a case for another code: particles, parameters, reference, a form for `score`
@@ -108,6 +111,7 @@ impl Command {
         match self {
             Self::Run(command) => command.making.threads,
             Self::Scene(command) => command.making.threads,
+            Self::Factor(command) => command.making.threads,
             Self::Verify(command) => command.threads,
             Self::Bless(command) => command.threads,
             _ => None,
@@ -124,6 +128,7 @@ impl Command {
             Self::Explain(command) => command.execute(),
             Self::Run(command) => command.execute(),
             Self::Scene(command) => command.execute(),
+            Self::Factor(command) => command.execute(),
             Self::Score(command) => command.execute(),
             Self::Export(command) => command.execute(),
             Self::Verify(command) => command.execute(),

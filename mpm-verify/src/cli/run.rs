@@ -1,7 +1,7 @@
 //! The commands `run` and `scene`: one run, begun or resumed.
 
 use super::*;
-use crate::progress::Teller;
+use crate::progress::{Teller, so_far};
 use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::error::one_line;
 use mpm_verify::parameter::Parameters;
@@ -108,13 +108,26 @@ pub(crate) struct Making {
 }
 
 impl Making {
-    /// Runs `spec` of `case`.
-    fn run(self, case: &Case, spec: &RunSpec) -> Result<ExitCode, Error> {
+    /// The folder of results, if there is one.
+    pub(super) fn folder(&self) -> Option<&Path> {
+        self.resume.as_deref().or(self.out.as_deref())
+    }
+
+    /// Makes `spec` of `case` and prints its results.
+    fn run(&self, case: &Case, spec: &RunSpec) -> Result<ExitCode, Error> {
+        let record = self.make(case, spec, self.folder())?;
+        tell(case, &record, self.told)?;
+        Ok(exit_code(&record))
+    }
+
+    /// Makes `spec` of `case` in a folder, if there is one.
+    ///
+    /// # Errors
+    /// Those of [`run_one`].
+    pub(super) fn make(&self, case: &Case, spec: &RunSpec, folder: Option<&Path>) -> Result<Record, Error> {
         let saving = saving(self.checkpoint_every, self.resume.is_some());
-        let folder = self.resume.or(self.out);
-        let place = folder.as_deref().map(|folder| (folder, saving));
         let memory = self.memory.map(|gib| gib * GIBIBYTE).or_else(available_memory);
-        run_one(case, spec, place, (or_all_cores(self.threads), memory), self.told)
+        run_one(case, spec, folder.map(|folder| (folder, saving)), (or_all_cores(self.threads), memory), self.told)
     }
 }
 
@@ -128,7 +141,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let scene = SceneFile::read(&self.file)?;
+        let scene = SceneFile::read(&self.file, 1.0)?;
         if self.making.told.progress() {
             say(format!("{}\n", one_line(&scene.title)))?;
             for line in &scene.made {
@@ -140,7 +153,7 @@ impl Scene {
 }
 
 /// Runs `spec` of `case` on `threads` threads within `memory` (bytes), if that is known, draws it into its folder, if it has
-/// one, and prints its size, progress and results.
+/// one, and prints its size and progress.
 ///
 /// # Errors
 /// The case does not offer the scheme, the scene exceeds the memory limit, the folder holds another run, or those of
@@ -151,7 +164,7 @@ fn run_one(
     place: Option<(&Path, Saving)>,
     (threads, memory): (usize, Option<f64>),
     told: Told,
-) -> Result<ExitCode, Error> {
+) -> Result<Record, Error> {
     let offered = case.schemes();
     if !offered.contains(&spec.scheme) {
         let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
@@ -170,7 +183,7 @@ fn run_one(
             if told.progress() {
                 say("The run is already complete; nothing to resume.\n\n")?;
             }
-            return tell(case, &record, told);
+            return Ok(record);
         }
         if !folder.join(checkpoint::FILE).exists() && told.progress() {
             say(format!("{}: no checkpoint; the run begins.\n", folder.display()))?;
@@ -186,8 +199,7 @@ fn run_one(
     }
     let name = format!("{} {}", case.name, spec.folder());
     let teller = Teller::new(&name, told.progress());
-    let record = judged_run(case, spec, place, threads, &|now| teller.hear(now))?;
-    teller.finish();
+    let record = judged_run(case, spec, place, threads, &|now| teller.hear(|seconds| so_far(now, seconds)))?;
     if let Some((folder, _)) = place {
         let pictures = single::draw(case, &record, folder)?;
         if told.progress() {
@@ -198,16 +210,15 @@ fn run_one(
         say("No files written; use --out DIR to keep results and pictures.\n")?;
     }
     drop(held);
-    tell(case, &record, told)
+    Ok(record)
 }
 
-fn tell(case: &Case, record: &Record, told: Told) -> Result<ExitCode, Error> {
+fn tell(case: &Case, record: &Record, told: Told) -> Result<(), Error> {
     match told {
-        Told { json: true, .. } => say_json(record)?,
-        Told { quiet: true, .. } => say(describe::run_line(record))?,
-        _ => say(describe::record(case, record))?,
+        Told { json: true, .. } => say_json(record),
+        Told { quiet: true, .. } => say(describe::run_line(record)),
+        _ => say(describe::record(case, record)),
     }
-    Ok(exit_code(record))
 }
 
 /// The record of this very run in a folder, judged again, or `None` if it has not ended there. If its tables differ

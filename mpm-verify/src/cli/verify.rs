@@ -66,7 +66,6 @@ impl Verify {
         discard_report(&self.out)?;
         let saving = saving(self.checkpoint_every, self.resume);
         let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
-        listener.finish();
         match plan.shard == Shard::WHOLE {
             true => {
                 let files = if self.all_files { Files::All } else { Files::Shown };

@@ -17,14 +17,16 @@ const STEPS: [&str; 4] = ["cfl=", "step_factor=", "load_steps=", "step_scaling="
 const EQUAL: f64 = 1.1;
 
 /// A problem, with the functions and the remedy to take for it.
-struct Problem {
-    case: &'static str,
+pub(super) struct Problem {
+    pub(super) case: &'static str,
     /// Parameters changed from the case's own.
     set: &'static [&'static str],
-    schemes: (BasisName, RemedyName),
+    pub(super) schemes: (BasisName, RemedyName),
     /// Error in which the runs are equal: name, metric.
-    motion: (&'static str, &'static str),
+    pub(super) motion: (&'static str, &'static str),
     pressure: fn(&Record) -> f64,
+    /// Title of its panel in the picture of [`super::solvers`], if it has one.
+    pub(super) panel: Option<&'static str>,
 }
 
 const fn problem(
@@ -33,7 +35,7 @@ const fn problem(
     motion: (&'static str, &'static str),
     pressure: fn(&Record) -> f64,
 ) -> Problem {
-    Problem { case, set: &[], schemes, motion, pressure }
+    Problem { case, set: &[], schemes, motion, pressure, panel: None }
 }
 
 const DISPLACEMENT: (&str, &str) = ("u (m)", "displacement_l2");
@@ -47,19 +49,31 @@ fn no_pressure(_: &Record) -> f64 {
     f64::NAN
 }
 
-const PROBLEMS: [Problem; 9] = [
-    problem("mms-axis", (Bspline2, Standard), DISPLACEMENT, stress),
+pub(super) const PROBLEMS: [Problem; 9] = [
+    Problem {
+        panel: Some("A wave that steps follow (ν = 0.3)"),
+        ..problem("mms-axis", (Bspline2, Standard), DISPLACEMENT, stress)
+    },
     problem("mms-wall-pressure", (Bspline2, Standard), DISPLACEMENT, stress),
-    problem("mms-vortex-box", (Gimp, FbarConsistent), DISPLACEMENT, stress),
+    Problem {
+        panel: Some("A vortex, slow beside its waves (ν = 0.4999)"),
+        ..problem("mms-vortex-box", (Gimp, FbarConsistent), DISPLACEMENT, stress)
+    },
     problem("vibrating-bar", (Bspline2, Standard), FREQUENCY, stress),
     Problem { set: &["duration=24"], ..problem("standing-wave", (Bspline2, Standard), FREQUENCY, stress) },
     problem("discs", (Gimp, Standard), ("energy", "energy_error_accumulated"), no_pressure),
     problem("cook", (Gimp, FbarConsistent), ("deflection", "fem_tip_error"), |r| r.value("mean_stress_rms_error")),
     // Prandtl's mean stress under the footing is −(1 + π) s_u.
-    problem("footing", (Gimp, FbarConsistent), ("N_c by B", "prandtl_error"), |r| {
-        r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0
-    }),
-    problem("slope-stability", (Gimp, FbarConsistent), ("factor", "factor_error"), no_pressure),
+    Problem {
+        panel: Some("Clay under a footing, to its limit load (ν = 0.49)"),
+        ..problem("footing", (Gimp, FbarConsistent), ("N_c by B", "prandtl_error"), |r| {
+            r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0
+        })
+    },
+    Problem {
+        panel: Some("A slope, its strength reduced until it fails"),
+        ..problem("slope-stability", (Gimp, FbarConsistent), ("factor", "factor_error"), no_pressure)
+    },
 ];
 
 impl Problem {

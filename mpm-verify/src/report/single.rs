@@ -34,9 +34,10 @@ fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Opti
     if !path.exists() || record.discretisation.dim != 2 {
         return Ok(None);
     }
-    let view = case.field;
-    let value = view.map_or("mean_stress", |view| view.value);
-    let table = Table::read(&path)?;
+    let (view, table) = (case.field, Table::read(&path)?);
+    // Where ground has yielded the mechanism shows.
+    let flows = bulk(table.column("plastic_strain")).is_some();
+    let value = view.map_or(if flows { "plastic_strain" } else { "mean_stress" }, |view| view.value);
     let header = table.iter().map(|(header, _)| header);
     let label = header.filter(|h| h.split(" (").next() == Some(value)).last();
     let (Some(label), Some(range)) = (label, bulk(table.column(value))) else {

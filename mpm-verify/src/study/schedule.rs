@@ -11,8 +11,6 @@ use std::sync::{Mutex, PoisonError};
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.
 pub trait Listener: Sync {
-    /// A share of a run is done (0 to 1).
-    fn progress(&self, run: usize, share: f64);
     /// A run can't resume from its checkpoint and begins again.
     fn begins_again(&self, run: usize, why: &Error);
     /// A run has ended.
@@ -105,9 +103,7 @@ impl Task {
         }
         let run = |saving| {
             let place = Some((self.folder.as_path(), saving));
-            judged_run(self.case, &self.spec, place, 1, &|now| {
-                listener.progress(k, now.share);
-            })
+            judged_run(self.case, &self.spec, place, 1, &|_| {})
         };
         match run(saving) {
             Err(why @ Error::Checkpoint { .. }) => {

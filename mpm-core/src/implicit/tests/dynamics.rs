@@ -172,3 +172,30 @@ fn unstable_rules_are_refused() {
     refused(newmark(0.25, 0.4), "delta");
     refused(newmark(0.1, 0.5), "alpha");
 }
+
+/// The roots of Newmark's step on a swing without damping, of trace 2 − q (½ + δ)/(1 + α q) and determinant
+/// 1 − q (δ − ½)/(1 + α q) with q = ω²Δt², lie in the unit disc for every step if and only if the settings are allowed.
+#[test]
+fn newmarks_parameters_are_allowed_where_every_step_is_stable() {
+    for k in 0..=20 {
+        for l in 0..=20 {
+            let (alpha, delta) = (0.05 * f64::from(k) + 1e-3, 0.3 + 0.05 * f64::from(l) + 1e-3);
+            let stable = (-30..60).all(|power| {
+                let q = 1.5_f64.powi(power);
+                let trace = 2.0 - q * (0.5 + delta) / (1.0 + alpha * q);
+                let determinant = 1.0 - q * (delta - 0.5) / (1.0 + alpha * q);
+                determinant.abs() <= 1.0 && trace.abs() <= 1.0 + determinant
+            });
+            let settings = Settings::new(1.0).rule(TimeRule::Newmark { alpha, delta });
+            // Between δ/2 and this the roots of long steps are in the disc, and real.
+            let least = 0.25 * (delta + 0.5) * (delta + 0.5);
+            if settings.check().is_ok() {
+                assert!(stable, "{alpha} {delta}");
+            }
+            if delta < 0.5 || 2.0 * alpha < delta {
+                assert!(!stable && settings.check().is_err(), "{alpha} {delta}");
+            }
+            assert_eq!(settings.check().is_ok(), delta >= 0.5 && alpha >= least);
+        }
+    }
+}

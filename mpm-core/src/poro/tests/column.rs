@@ -230,11 +230,8 @@ fn the_number_of_threads_changes_no_bit() {
 #[test]
 fn nothing_is_forgotten() {
     for pressure_space in SPACES {
-        let settings = Settings {
-            pressure_space,
-            growth: 1.1,
-            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).ghost_on_increments(0.01)
-        };
+        let settings =
+            Settings { pressure_space, growth: 1.1, ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01) };
         let new = || loaded::<2, Means<2>>(0.3 * MODULUS, settings);
         let mut whole = new();
         whole.step().unwrap();

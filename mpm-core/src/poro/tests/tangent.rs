@@ -71,7 +71,6 @@ fn the_matrix_is_the_slope_of_the_residual() {
         for volume_rate in [VolumeRate::Exact, VolumeRate::Logarithmic] {
             let settings = Settings::new(1.0)
                 .ghosts(0.1, 0.01)
-                .ghost_on_increments(0.01)
                 .pressure_space(pressure_space)
                 .volume_rate(volume_rate)
                 .tangent(Tangent::Consistent);
@@ -81,7 +80,7 @@ fn the_matrix_is_the_slope_of_the_residual() {
             matrix_is_the_slope::<2, Means<2>>(settings);
         }
     }
-    let settings = Settings::new(1.0).ghosts(0.1, 0.01).ghost_on_increments(0.01).tangent(Tangent::Consistent);
+    let settings = Settings::new(1.0).ghosts(0.1, 0.01).tangent(Tangent::Consistent);
     matrix_is_the_slope::<3, Means<3>>(settings);
 }
 
@@ -111,7 +110,7 @@ fn asymmetry(settings: Settings) -> f64 {
 /// logarithmic one the coupling is not.
 #[test]
 fn the_exact_rate_makes_a_symmetric_matrix() {
-    let symmetric = Settings::new(1.0).ghosts(0.1, 0.01).ghost_on_increments(0.01);
+    let symmetric = Settings::new(1.0).ghosts(0.1, 0.01);
     assert!(asymmetry(symmetric) < 1e-13);
     let consistent = symmetric.tangent(Tangent::Consistent);
     assert!(asymmetry(consistent) > 1e-4);

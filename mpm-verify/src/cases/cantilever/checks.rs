@@ -32,10 +32,10 @@ impl Beam<'_> {
         self.stabilisation == Stabilised::None
     }
 
-    /// Whether quadratic splines with a ghost penalty or the extension have 16 particles a cell.
+    /// Whether quadratic splines with a ghost penalty have 16 particles a cell.
     fn is_splines(&self) -> bool {
         self.basis() == Bspline2
-            && [Stabilised::Ghost, Stabilised::Extension].contains(&self.stabilisation)
+            && self.stabilisation == Stabilised::Ghost
             && self.points_per_direction == 4
             && self.law != LawName::JaumannLinear
     }
@@ -130,21 +130,16 @@ fn ended(records: &[Record]) -> Vec<Beam<'_>> {
 
 fn falls(records: &[Record]) -> Vec<Finding> {
     let runs = ended(records);
-    let stabilised = |(by, name): (Stabilised, &str)| {
-        let own = |b: &&Beam| b.is_splines() && b.stabilisation == by && b.changes_none_but(&["stabilisation"]);
-        let mut own: Vec<&Beam> = runs.iter().filter(own).collect();
-        own.sort_by(|a, b| b.h.total_cmp(&a.h));
-        let fall = |metric: Metric, pair: &[&Beam]| {
-            let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
-            let what = format!("{name}: {} at {} over that at {}", metric.name, pair[1].level, pair[0].level);
-            Finding::at_most(what, fine / coarse, 1.0, "convergence under refinement")
-        };
-        let pairs = own.windows(2);
-        let found = pairs.flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair)));
-        found.collect::<Vec<_>>()
+    let own = |b: &&Beam| b.is_splines() && b.is_default();
+    let mut own: Vec<&Beam> = runs.iter().filter(own).collect();
+    own.sort_by(|a, b| b.h.total_cmp(&a.h));
+    let fall = |metric: Metric, pair: &[&Beam]| {
+        let (coarse, fine) = (pair[0].metric(metric), pair[1].metric(metric));
+        let what = format!("{} at {} over that at {}", metric.name, pair[1].level, pair[0].level);
+        Finding::at_most(what, fine / coarse, 1.0, "convergence under refinement")
     };
-    let both = [(Stabilised::Ghost, "ghost"), (Stabilised::Extension, "extension")];
-    both.into_iter().flat_map(stabilised).collect()
+    let pairs = own.windows(2);
+    pairs.flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair))).collect()
 }
 
 fn steps(records: &[Record]) -> Vec<Finding> {

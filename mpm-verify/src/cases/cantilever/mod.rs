@@ -28,7 +28,7 @@ choices! {
     /// Initial positions of the particles in a cell.
     pub(super) enum Points { Uniform = "uniform", Gauss = "gauss" }
     /// Stabilisation of functions that see hardly any material.
-    pub(super) enum Stabilised { None = "none", Soft = "soft", Ghost = "ghost", Extension = "extension" }
+    pub(super) enum Stabilised { None = "none", Soft = "soft", Ghost = "ghost" }
 }
 
 parameters! {
@@ -145,9 +145,6 @@ fn plan() -> Plan {
         .runs(Pr, "h0.1", &q8, "stabilisation=soft")
         .runs(Pr, "h0.05", &splines, "law=neo-hookean")
         .runs(Pr, "h0.05", &splines, "law=jaumann")
-        .runs(Pr, "h0.1 h0.05", &splines, "stabilisation=extension")
-        .runs(Nightly, "h0.025", &splines, "stabilisation=extension")
-        .runs(Nightly, "h0.1 h0.05 h0.025", &gimp, "stabilisation=extension")
         .runs(Nightly, "h0.0125", &splines, "")
         .runs(Nightly, "h0.025 h0.0125", &low, "")
         .runs(Nightly, "h0.1 h0.05", &cubic, "")

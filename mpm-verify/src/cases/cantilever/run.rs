@@ -97,7 +97,6 @@ impl Setup<Cantilever> {
             Stabilised::None => Stabilisation::None,
             Stabilised::Soft => Stabilisation::Soft(self.stabilisation_factor),
             Stabilised::Ghost => Stabilisation::Ghost(self.stabilisation_factor),
-            Stabilised::Extension => Stabilisation::Extension,
         };
         let settings = Settings {
             tolerance: self.tolerance,

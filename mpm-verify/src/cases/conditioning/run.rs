@@ -162,8 +162,8 @@ impl Setup<Ellipse> {
         let domains = || cloud.domains();
         let mut solid = u.stiffness(&cloud, MODULI);
         let mut water = p.laplacian(&cloud);
-        let of_water = p.penalty(&of_p.ghost(1.0, 1, domains()), 1);
-        solid += u.penalty(&of_u.ghost(self.alpha, 2, domains()), 2);
+        let of_water = p.penalty(&of_p.ghost(1.0, &[], 1, domains()), 1);
+        solid += u.penalty(&of_u.ghost(self.alpha, &[], 2, domains()), 2);
         let flow = water.clone();
         water += &of_water * self.alpha;
         let whole = k.is_multiple_of(OF_WHOLE).then(|| {
@@ -201,9 +201,14 @@ impl Setup<Ellipse> {
             force[2 * i + 1] = -weight[i];
         }
         let stiffness = u.stiffness(&cloud, MODULI);
-        let ghost = u.penalty(&functions.ghost(self.alpha, 2, cloud.domains()), 2);
+        let ghost = u.penalty(&functions.ghost(self.alpha, &[], 2, cloud.domains()), 2);
         let work = |matrix: DMatrix<f64>| {
-            let factors = matrix.cholesky().ok_or(mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0 })?;
+            let factors = matrix.cholesky().ok_or(mpm_core::Error::Singular {
+                time: 0.0,
+                step: 0,
+                iteration: 0,
+                cause: mpm_core::Cause::Unknown,
+            })?;
             Ok::<f64, mpm_core::Error>(factors.solve(&force).dot(&force))
         };
         let plain = work(stiffness.clone())?;

@@ -123,11 +123,6 @@ impl Setup<Cook> {
         self.is_free_of_locking() && self.basis() == Gimp && self.ppc_per_direction > 2
     }
 
-    /// Newton iterations that quadratic convergence takes at most.
-    fn most_iterations(&self) -> f64 {
-        MOST_ITERATIONS * f64::from(self.load_steps)
-    }
-
     /// Whether no function of the rim is soft: all are held, or GIMP takes its only step on the lattice, where domains end at
     /// faces of cells and it is the method with linear functions.
     fn is_held(&self) -> bool {
@@ -326,11 +321,11 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because("equilibrium"),
         Check::truth("newton", "quasi-static, not where rim-stalls is judged: at most seven Newton iterations a step, four to square a tenth and three to get there")
             .when(|c| !c.is_explicit() && !c.stalls())
-            .at_most(NEWTON_ITERATIONS, |c| c.most_iterations())
+            .at_most(NEWTON_ITERATIONS, |c| MOST_ITERATIONS * f64::from(c.load_steps))
             .because("quadratic convergence with the exact tangent"),
         Check::known_limit("rim-stalls", "quasi-static fbar-consistent, quadratic splines, free rim, four steps, h = ¼ m: more than seven Newton iterations a step")
             .when(|c| c.stalls())
-            .above(NEWTON_ITERATIONS, |c| c.most_iterations())
+            .above(NEWTON_ITERATIONS, |c| MOST_ITERATIONS * f64::from(c.load_steps))
             .because("of functions that see hardly any material the line search finds the equilibrium slowly; a ghost penalty of 10⁻⁶ is enough against it"),
         Check::known_limit("locked", "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m")
             .when(|c| c.remedy() == RemedyName::None && c.basis() == Gimp && !c.is_compressible())

@@ -158,6 +158,7 @@ fn plan() -> Plan {
     let of_static = |basis, remedy| Scheme::quasi_static(basis, remedy);
     let averaged = [Gimp, Bspline2].map(|basis| of_static(basis, FbarConsistent));
     let statics = [Gimp, Bspline2].map(|basis| [none, FbarConsistent].map(|r| of_static(basis, r)));
+    let ratios = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"];
     // Loads under which explicit bodies leave the grid, in as many steps, with functions of the rim held.
     let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16), (50, 20)];
     // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
@@ -177,20 +178,15 @@ fn plan() -> Plan {
         .runs(Nightly, "h0.5", &pairs(&three, &REMEDIES[..4]), "")
         .runs(Nightly, "h2", &pairs(&three, &[FbarRecursive]), "cfl=0.15")
         .runs(Nightly, "h0.25", &two(&[FbarRate]), "")
-        .each(Nightly, "h1", &averages, ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"])
+        .each(Nightly, "h1", &averages, ratios)
         .runs(Nightly, "h1", &two(&[FbarTotal, FbarRate]), "load_at=edge")
         .runs(Nightly, "h1", &quadratic(&[none, FbarRate]), "wall=wall-line")
         .runs(Nightly, "h1", &gimp(&[FbarRate]), "rest_window=1 max_periods=5")
         // Readings of the paper's Figure 6: a stop at the first peak of the kinetic energy, and its kind of damping.
         .runs(Nightly, "h1 h0.5", &two(&[FbarRecursive]), "max_periods=0.25")
         .runs(Nightly, "h1", &two(&[none, FbarRecursive, FbarTotal, FbarConsistent]), LOCALLY)
-        .each(Nightly, "h1", &averaged[..1], ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"])
-        .each(
-            Nightly,
-            "h1",
-            &gimp(&[FbarRecursive]),
-            ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"],
-        )
+        .each(Nightly, "h1", &averaged[..1], ratios)
+        .each(Nightly, "h1", &gimp(&[FbarRecursive]), ratios)
         .runs(Long, "h0.25", &pairs(&three, &[FbarRecursive]), "")
         .runs(Long, "h0.25", &two(&[FbarTotal]), "cfl=0.6")
         .runs(Long, "h0.25", &pairs(&[Bspline3], &[none, FbarTotal, FbarRate]), "cfl=0.6")

@@ -167,10 +167,7 @@ impl Setup<Excavation> {
                 ..settings
             }
         };
-        Ok(match self.ghost {
-            0.0 => settings,
-            factor => settings.stabilised(Stabilisation::Ghost(factor)),
-        })
+        Ok(settings.stabilised(Stabilisation::ghost(self.ghost)))
     }
 }
 

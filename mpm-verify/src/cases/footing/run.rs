@@ -19,7 +19,6 @@ const REACH: f64 = 0.25;
 /// Penetration over B between two rows of the series.
 const ROW: f64 = 1e-5;
 /// Ghost penalty of a quasi-static run: particles that rise beside the footing come to functions that hardly see them.
-/// It is on the increments: 16 and 40 steps have the same limit load to 10⁻⁵.
 const RIM: f64 = 1e-7;
 /// Share of its reach by which the barrier gives way under Prandtl's pressure.
 const GIVES_WAY: f64 = 0.002;
@@ -260,10 +259,7 @@ impl Problem<2> for Pressing {
             }
         };
         match setup.implicit_settings(self.pace.dt) {
-            Some(settings) => {
-                let settings = settings.stabilised(Stabilisation::Ghost(RIM));
-                mpm_solvers::implicit(setup.scheme, scene, settings)
-            }
+            Some(own) => mpm_solvers::implicit(setup.scheme, scene, own.stabilised(Stabilisation::Ghost(RIM))),
             None => setup.explicit(scene, self.pace.dt, setup.damping),
         }
     }

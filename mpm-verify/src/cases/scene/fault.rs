@@ -13,6 +13,8 @@ pub(super) type Line<T> = Spanned<T>;
 pub(super) struct Source {
     pub(super) path: PathBuf,
     pub(super) text: String,
+    /// Divisor of all strengths; 1 as a rule.
+    pub(super) weaker: f64,
 }
 
 impl Source {

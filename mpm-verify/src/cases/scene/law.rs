@@ -1,6 +1,8 @@
 //! The laws that a scene file can name.
 
-use super::form::{LawForm, StrengthForm};
+use super::fault::Source;
+use super::form::{Form, LawForm, StrengthForm};
+use crate::error::Error;
 use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength};
 
 /// A law.
@@ -65,6 +67,35 @@ impl Material {
             Self::ImprovedHencky(law) => law.wave_speed(density),
             Self::CamClay(law) => law.wave_speed(density),
         }
+    }
+}
+
+impl Source {
+    /// Form of the text, with its strengths divided.
+    ///
+    /// # Errors
+    /// Those of [`Self::parse`]; a law without a strength, whose strength is to be divided.
+    pub(super) fn form(&self) -> Result<Form, Error> {
+        let mut form: Form = self.parse()?;
+        if self.weaker != 1.0 {
+            let place = form.law.span();
+            let phases = form.phases.iter_mut().filter_map(|phase| phase.as_mut().law.as_mut());
+            for law in phases.chain([form.law.as_mut()]) {
+                let LawForm::HenckyJ2 { strength, .. } = law else {
+                    return Err(self.fault(&place, "no strength to be divided: hencky-j2 has one"));
+                };
+                match strength {
+                    StrengthForm::Undrained { shear_strength_pa: peak } | StrengthForm::Perfect { norm_pa: peak } => {
+                        peak.0 /= self.weaker;
+                    }
+                    StrengthForm::Softening { peak_pa, residual_pa, .. } => {
+                        peak_pa.0 /= self.weaker;
+                        residual_pa.0 /= self.weaker;
+                    }
+                }
+            }
+        }
+        Ok(form)
     }
 }
 

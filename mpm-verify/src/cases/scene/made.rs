@@ -6,13 +6,18 @@ use super::phase::Phase;
 use super::setup::Setup;
 
 impl<const D: usize> Setup<D> {
-    /// Description of the body and of every phase.
-    pub(super) fn made(&self) -> Vec<String> {
-        let reach: [f64; D] = std::array::from_fn(|a| {
+    /// Size of the body (m).
+    pub(super) fn reach(&self) -> [f64; D] {
+        std::array::from_fn(|a| {
             let along = || self.places.iter().map(|x| x[a]);
             let (least, most) = (along().fold(f64::MAX, f64::min), along().fold(f64::MIN, f64::max));
             most - least + self.spacing
-        });
+        })
+    }
+
+    /// Description of the body and of every phase.
+    pub(super) fn made(&self) -> Vec<String> {
+        let reach = self.reach();
         let density = self.form.body.get_ref().density_kg_m3.0;
         // Σ |g| times the reach: the stress below a column as high as the body.
         let weight = |load: &Line<LoadForm>| match load.get_ref() {

@@ -16,12 +16,12 @@ mod watch;
 #[cfg(test)]
 mod tests;
 
-use super::family::family;
 use crate::case::Tier;
 use crate::cases::prelude::*;
-use crate::check::{checks, judge, run};
+use crate::check::On;
 use crate::files::{Mark, read_text};
 use crate::problem::Driver;
+use crate::verdict::Kind;
 use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;
@@ -42,16 +42,18 @@ pub struct SceneFile {
     pub title: String,
     /// Body and steps made from the file, a line each: a wrong unit shows here.
     pub made: Vec<String>,
+    /// Height of the body, along the last axis (m).
+    pub height: f64,
 }
 
 impl SceneFile {
-    /// Reads a file. Names made from it live as long as the program, which reads one.
+    /// Reads a file and divides the strengths in it by `weaker`. Names made from it live as long as the program, which reads few.
     ///
     /// # Errors
-    /// The file can't be read, or makes no scene: the error names line and key.
-    pub fn read(path: &Path) -> Result<Self, Error> {
-        let source = Source { path: path.to_path_buf(), text: read_text(path)? };
-        let form: Form = source.parse()?;
+    /// The file can't be read, or makes no scene: the error names line and key; no strength is there to be divided.
+    pub fn read(path: &Path, weaker: f64) -> Result<Self, Error> {
+        let source = Source { path: path.to_path_buf(), text: read_text(path)?, weaker };
+        let form = source.form()?;
         let format = form.format.get_ref();
         if *format != FORMAT {
             let said = format!("format {format} where {FORMAT} is read");
@@ -82,6 +84,7 @@ impl SceneFile {
             spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false },
             title,
             made: found.made,
+            height: found.height,
         })
     }
 }
@@ -94,6 +97,7 @@ struct Found {
     /// A checksum of file and particles, by which a checkpoint tells its scene from others.
     mark: u32,
     made: Vec<String>,
+    height: f64,
 }
 
 /// Builds every phase once, so that what is wrong in the last one is said before the first.
@@ -110,30 +114,31 @@ where
     }
     let mut all = source.text.clone().into_bytes();
     all.extend(setup.places.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
-    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made: setup.made() })
+    all.extend(source.weaker.to_le_bytes());
+    let (made, height) = (setup.made(), setup.reach()[D - 1]);
+    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height })
 }
 
 fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error>
 where
     Compiled: Solving<D>,
 {
-    let made = Setup::<D>::new(source, source.parse()?)?;
+    let made = Setup::<D>::new(source, source.form()?)?;
     let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
     Ok(Box::new(Driver::new(course)?))
 }
 
 /// The case of a scene in `dimension` dimensions whose body has a `mass` (kg).
 fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
-    let kept = run(move |r| {
-        let why = "particles carry their mass: a sum of it rounds";
-        [judge(r, MASS).within(mass, ROUNDING * mass, why)]
-    });
+    let why = "particles carry their mass: a sum of it rounds";
+    let kept = move |r: &Record| vec![Finding::within(MASS, r.metric(MASS), mass, ROUNDING * mass, why)];
+    let (statement, on) = ("The mass stays what it was.", On::Run(Box::new(kept)));
     Case {
         description: "What a scene file describes.",
         limits: vec!["Nothing is known of the answer, so nothing is judged."],
         levels: vec![level],
-        plan: vec![family(Tier::Long, &[level], &[scheme], &[])],
-        checks: checks! { bookkeeping "mass": "The mass stays what it was." => kept; },
+        plan: vec![Family { tier: Tier::Long, levels: vec![level], schemes: vec![scheme], set: Vec::new() }],
+        checks: vec![Check { name: "mass", kind: Kind::Bookkeeping, statement, on }],
         watched: &["displacement_max", "kinetic_energy"],
         ..Case::begun_by("scene", "A scene of one's own", &watch::metrics_in(dimension), Vec::new(), begin)
     }

@@ -9,7 +9,7 @@ fn shipped(name: &str) -> PathBuf {
 
 /// A run of a shipped file, and the same of a case, at their start.
 fn both(file: &str, case: &str, level: &str, set: &[&str]) -> [Box<dyn Job>; 2] {
-    let scene = SceneFile::read(&shipped(file)).unwrap();
+    let scene = SceneFile::read(&shipped(file), 1.0).unwrap();
     let case = cases::find(case).unwrap();
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let parameters = Parameters::new(&case.parameters, &set).unwrap();
@@ -63,7 +63,7 @@ fn refusal(from: &str, to: &str) -> String {
     let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
     assert!(text.contains(from), "{from}");
     std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
-    match SceneFile::read(&path) {
+    match SceneFile::read(&path, 1.0) {
         Ok(_) => format!("{to}: nothing is wrong with it"),
         Err(e) => e.to_string(),
     }
@@ -118,7 +118,7 @@ fn particles_stand_where_shapes_are() {
     let shape = text.lines().find(|line| line.starts_with("polygon")).unwrap();
     let count = |by: &str| {
         std::fs::write(&path, text.replace(shape, by)).unwrap();
-        SceneFile::read(&path).map(|scene| {
+        SceneFile::read(&path, 1.0).map(|scene| {
             let none = Parameters::new(&[], &[]).unwrap();
             let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
             job.particles()[0].values.len()
@@ -141,4 +141,15 @@ fn particles_stand_where_shapes_are() {
         let said = count(by).unwrap_err().to_string();
         assert!(said.contains(part), "{said}");
     }
+}
+
+#[test]
+fn a_strength_is_divided_in_every_phase_where_there_is_one() {
+    let weak = SceneFile::read(&shipped("slope.toml"), 2.0).unwrap();
+    for (line, strength) in weak.made[1..].iter().zip(["10000 Pa", "4000 Pa"]) {
+        assert!(line.contains(strength), "{line}");
+    }
+    assert_eq!(weak.height, 5.0);
+    let refused = SceneFile::read(&shipped("cook.toml"), 2.0).err().unwrap().to_string();
+    assert!(refused.contains("law") && refused.contains("no strength"), "{refused}");
 }

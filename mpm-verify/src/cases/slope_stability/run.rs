@@ -18,8 +18,7 @@ const LOOKS: usize = 8;
 const STATIC_LOOKS: usize = 40;
 /// Local damping of a trial.
 const TRIAL_DAMPING: f64 = 0.5;
-/// Ghost penalty of a quasi-static run, on the increments, which vanish at rest: functions of the rim hardly see
-/// material. With a tenth of it the factors are the same; with a hundredth Newton's method stalls on splines below the limit.
+/// Ghost penalty of a quasi-static run: docs/slope-stability.md.
 const RIM: f64 = 1e-3;
 
 /// A trial.
@@ -199,8 +198,7 @@ impl Problem<2> for Trials {
         if let Some(settings) = setup.implicit_settings(setup.look()) {
             let rise = if seen.factor.is_none() { 1.0 } else { 0.0 };
             let scene = ground.scene(setup, strength, rise)?;
-            let settings = settings.stabilised(Stabilisation::Ghost(RIM));
-            return mpm_solvers::implicit(setup.scheme, scene, settings);
+            return mpm_solvers::implicit(setup.scheme, scene, settings.stabilised(Stabilisation::Ghost(RIM)));
         }
         let (rise, damping) = match seen.factor {
             None => (RISE, STAGE_DAMPING),

@@ -191,7 +191,7 @@ impl Body {
         }
         let functions = I::on(self.grid)?;
         let fields = self.fields::<I, I>(&functions)?;
-        let ghost = functions.ghost(GHOST, 1, self.cloud.domains());
+        let ghost = functions.ghost(GHOST, &[], 1, self.cloud.domains());
         let norm = fields[0].laplacian(&self.cloud) + fields[0].penalty(&ghost, 1);
         self.found(&fields, norm)
     }
@@ -203,7 +203,8 @@ impl Body {
     }
 
     fn found(&self, [u, p]: &[forms::Field; 2], norm: DMatrix<f64>) -> Result<Found, mpm_core::Error> {
-        let singular = || mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0 };
+        let singular =
+            || mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0, cause: mpm_core::Cause::Unknown };
         let cloud = &self.cloud;
         let norm = norm.cholesky().ok_or_else(singular)?;
         let coupling = u.coupling(p, cloud);

@@ -147,7 +147,7 @@ fn a_gate_may_ask_for_checks_on_runs_together() {
     let scores = levels([4e-3, 1e-3, 2.5e-4], |_| ()).scores().unwrap();
     assert!(require("falls").known_to(scores.case).is_ok());
     let said = refused(&require("falls"), &scores);
-    assert!(said.contains("together: falls, ghost: stress_error at h0.05 over that at h0.1 (the runs do not give all that it compares (missing: stress_xx"), "{said}");
+    assert!(said.contains("together: falls, stress_error at h0.05 over that at h0.1 (the runs do not give all that it compares (missing: stress_xx"), "{said}");
     // That each run is asked for by itself.
     assert_eq!(refused(&require("corner"), &scores), "");
     let said = refused(&require("stress"), &scores);

@@ -1,6 +1,4 @@
-//! Local damping in an implicit step, for a mass on a spring: why [`Settings::locally_damped`] refuses it.
-
-use super::*;
+//! Local damping in an implicit step, for a mass on a spring: why the implicit solver has none.
 
 /// A unit mass at a unit spring, pulled by a unit force at once, with damping −α |F| sign(v) of the out-of-balance
 /// force F, by Newmark's rule (α = ¼, δ = ½) with steps of `dt` (ω Δt).
@@ -80,41 +78,4 @@ fn damping_inside_a_step_leaves_steps_without_a_solution() {
 fn damping_by_the_step_before_does_not_come_to_rest() {
     let [short, middle, long] = [1.0, 10.0, 100.0].map(|dt| sixty(dt, Swing::lagged).1);
     assert!(short < 1e-2 && middle > 100.0 && long > 1.0, "{short} {middle} {long}");
-}
-
-#[test]
-fn local_damping_is_refused_with_the_reason() {
-    assert!(Settings::new(1.0).locally_damped(0.0).is_ok());
-    for alpha in [0.75, -0.1, f64::NAN] {
-        let refused = Settings::new(1.0).locally_damped(alpha);
-        let said = refused.unwrap_err().to_string();
-        assert!(said.contains("not differentiable") && said.contains(&alpha.to_string()));
-    }
-}
-
-/// The roots of Newmark's step on a swing without damping, of trace 2 − q (½ + δ)/(1 + α q) and determinant
-/// 1 − q (δ − ½)/(1 + α q) with q = ω²Δt², lie in the unit disc for every step if and only if the settings are allowed.
-#[test]
-fn newmarks_parameters_are_allowed_where_every_step_is_stable() {
-    for k in 0..=20 {
-        for l in 0..=20 {
-            let (alpha, delta) = (0.05 * f64::from(k) + 1e-3, 0.3 + 0.05 * f64::from(l) + 1e-3);
-            let stable = (-30..60).all(|power| {
-                let q = 1.5_f64.powi(power);
-                let trace = 2.0 - q * (0.5 + delta) / (1.0 + alpha * q);
-                let determinant = 1.0 - q * (delta - 0.5) / (1.0 + alpha * q);
-                determinant.abs() <= 1.0 && trace.abs() <= 1.0 + determinant
-            });
-            let settings = Settings::new(1.0).rule(TimeRule::Newmark { alpha, delta });
-            // Between δ/2 and this the roots of long steps are in the disc, and real.
-            let least = 0.25 * (delta + 0.5) * (delta + 0.5);
-            if settings.check().is_ok() {
-                assert!(stable, "{alpha} {delta}");
-            }
-            if delta < 0.5 || 2.0 * alpha < delta {
-                assert!(!stable && settings.check().is_err(), "{alpha} {delta}");
-            }
-            assert_eq!(settings.check().is_ok(), delta >= 0.5 && alpha >= least);
-        }
-    }
 }

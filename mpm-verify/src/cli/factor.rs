@@ -1,0 +1,43 @@
+//! The command `factor`: a scene whose strength is divided until it fails.
+
+use super::run::Making;
+use super::*;
+use mpm_verify::cases::scene::SceneFile;
+use mpm_verify::draw::draw_charts;
+use mpm_verify::factor::Search;
+
+#[derive(Args)]
+pub(crate) struct Factor {
+    /// Scene file in TOML with a strength: docs/how-to/factor.md
+    file: PathBuf,
+    /// Least factor tried
+    #[arg(long, default_value_t = 1.0)]
+    least: f64,
+    /// Largest factor tried
+    #[arg(long, default_value_t = 3.0)]
+    most: f64,
+    /// Trials: the least and the largest factor, then bisection
+    #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u8).range(2..=40))]
+    trials: u8,
+    #[command(flatten)]
+    pub(super) making: Making,
+}
+
+impl Factor {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let height = SceneFile::read(&self.file, self.least)?.height;
+        let mut search = Search::new([self.least, self.most], height, self.trials.into())?;
+        while let Some(factor) = search.next() {
+            let scene = SceneFile::read(&self.file, factor)?;
+            let folder = self.making.folder().map(|out| out.join(format!("{factor:.6}")));
+            let record = self.making.make(&scene.case, &scene.spec, folder.as_deref())?;
+            say(search.add(factor, &record) + "\n")?;
+        }
+        if let Some(out) = self.making.folder() {
+            let _held = hold(out)?;
+            draw_charts(&out.join("factor.png"), &[search.chart()], 1)?;
+        }
+        say(search.result() + "\n")?;
+        Ok(ExitCode::Good)
+    }
+}

@@ -1,0 +1,139 @@
+//! The factor by which the strength of a scene can be divided before it fails, by bisection.
+//!
+//! Ground that has failed slumps to another equilibrium: its displacement over the factor has a kink. docs/how-to/factor.md
+
+use crate::draw::{Chart, Dash, Marker, Series};
+use crate::error::Error;
+use crate::record::{Record, Status};
+
+/// Growth of the displacement by which a body fails: in heights of the body, and in displacements at the least factor.
+const GROWS: [f64; 2] = [1.0 / 200.0, 2.0];
+/// Displacement in heights of the body from which it fails in any case.
+const SLUMPS: f64 = 1.0 / 50.0;
+
+struct Trial {
+    factor: f64,
+    /// Largest displacement (m) of a particle; NaN without an equilibrium.
+    moved: f64,
+    stands: bool,
+}
+
+/// A search for the factor.
+pub struct Search {
+    range: [f64; 2],
+    /// Height of the body (m).
+    height: f64,
+    most: usize,
+    trials: Vec<Trial>,
+}
+
+impl Search {
+    /// A search in a range of factors, of a body of a height (m), in `most` trials.
+    ///
+    /// # Errors
+    /// The range is empty, or not of positive numbers.
+    pub fn new(range: [f64; 2], height: f64, most: usize) -> Result<Self, Error> {
+        let [least, largest] = range;
+        match least > 0.0 && least < largest && largest.is_finite() {
+            true => Ok(Self { range, height, most, trials: Vec::new() }),
+            false => Err(Error::Input(format!("--least {least}, --most {largest}: 0 < least < most is allowed"))),
+        }
+    }
+
+    /// The factors between which the body fails, of those tried; NaN where it always stands or fails.
+    fn bracket(&self) -> [f64; 2] {
+        let of = |stands: bool| self.trials.iter().filter(move |t| t.stands == stands).map(|t| t.factor);
+        [of(true).next_back().unwrap_or(f64::NAN), of(false).next().unwrap_or(f64::NAN)]
+    }
+
+    /// The factor to try next: the least, the largest, then the geometric middle of the bracket.
+    pub fn next(&self) -> Option<f64> {
+        let [stands, fails] = self.bracket();
+        match self.trials.len() {
+            n if n == self.most => None,
+            n @ (0 | 1) => Some(self.range[n]).filter(|_| fails.is_nan()),
+            _ => Some((stands * fails).sqrt()).filter(|middle| middle.is_finite()),
+        }
+    }
+
+    /// Adds the trial of a run, and tells how it came out.
+    pub fn add(&mut self, factor: f64, run: &Record) -> String {
+        let moved = if run.status == Status::Ok { run.value("displacement_max") } else { f64::NAN };
+        let first = self.trials.first().map_or(moved, |first| first.moved);
+        let kink = (GROWS[0] * self.height).max(GROWS[1] * first);
+        let stands = moved < SLUMPS * self.height && moved - first < kink;
+        self.trials.push(Trial { factor, moved, stands });
+        self.trials.sort_by(|a, b| a.factor.total_cmp(&b.factor));
+        let why = run.error.as_ref().map_or_else(|| format!("moved {moved:.4} m"), |e| e.message.clone());
+        format!("{factor:.4}  {}  {why}", if stands { "stands" } else { "fails" })
+    }
+
+    /// The result in a sentence.
+    pub fn result(&self) -> String {
+        match self.bracket() {
+            [stands, _] if stands.is_nan() => {
+                format!("Fails at the least factor, {}: try less (--least).", self.range[0])
+            }
+            [_, fails] if fails.is_nan() => {
+                format!("Stands at the largest factor, {}: try more (--most).", self.range[1])
+            }
+            [stands, fails] => {
+                format!("Factor of safety {:.3}: stands at {stands:.3}, fails at {fails:.3}.", (stands * fails).sqrt())
+            }
+        }
+    }
+
+    /// Displacement over the factor.
+    pub fn chart(&self) -> Chart {
+        let series =
+            [("stands", true, Marker::Circle), ("fails", false, Marker::Square)].map(|(name, stands, marker)| {
+                let own = self.trials.iter().filter(|t| t.stands == stands);
+                let points = own.map(|t| (t.factor, t.moved)).collect();
+                Series { marker, dash: Dash::Dotted, ..Series::line(name, points, usize::from(stands)) }
+            });
+        Chart::new(self.result(), ["strength divided by (-)", "largest displacement (m)"], series.into())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Measured;
+    use crate::record::fixture::record;
+
+    /// The search of a body 10 m high that fails at `limit` and finds equilibrium up to `lost`.
+    fn found(limit: f64, lost: f64) -> Search {
+        let mut search = Search::new([1.0, 3.0], 10.0, 12).unwrap();
+        while let Some(factor) = search.next() {
+            let mut run = record("h1", Vec::new());
+            let moved = 0.002 * factor + 5.0 * (factor / limit).ln().max(0.0);
+            run.metrics.insert("displacement_max".to_owned(), Measured { value: Some(moved), unit: "m".to_owned() });
+            if factor > lost {
+                run.status = Status::Failed;
+            }
+            search.add(factor, &run);
+        }
+        search
+    }
+
+    #[test]
+    fn a_kink_is_found_from_both_sides_though_all_trials_find_equilibrium() {
+        for lost in [f64::INFINITY, 1.7] {
+            let search = found(1.65, lost);
+            let [stands, fails] = search.bracket();
+            // 0.05 m at half a height per ln(factor): a hundredth too late.
+            assert!(stands < fails && stands > 1.65 && fails < 1.67, "{stands} {fails}");
+            assert!(search.result().contains("safety 1.66"), "{}", search.result());
+            assert_eq!(search.trials.len(), 12);
+            assert!(search.chart().shows_something());
+        }
+    }
+
+    #[test]
+    fn a_range_without_the_limit_is_told() {
+        let [strong, weak] = [found(5.0, 9.0), found(0.5, 0.9)];
+        assert!(strong.trials.len() == 2 && strong.result().contains("--most"));
+        assert!(weak.trials.len() == 1 && weak.result().contains("--least"));
+        assert!(Search::new([2.0, 1.0], 1.0, 5).is_err() && Search::new([0.0, f64::NAN], 1.0, 5).is_err());
+    }
+}
