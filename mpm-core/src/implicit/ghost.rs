@@ -10,11 +10,22 @@ use super::penalty::Penalty;
 use super::pieces::{AxisPieces, Pieces};
 use crate::lattice::Lattice;
 use nalgebra::DMatrix;
+use std::array::from_fn;
 
 /// Intervals of all axes, and which of them hold material.
 struct Cells<const D: usize> {
     axes: [AxisPieces; D],
     active: Vec<bool>,
+}
+
+/// Indices of a place among `counts`, the last of which runs fastest.
+fn indices<const D: usize>(mut place: usize, counts: [usize; D]) -> [usize; D] {
+    let mut index = [0; D];
+    for a in (0..D).rev() {
+        index[a] = place % counts[a];
+        place /= counts[a];
+    }
+    index
 }
 
 impl<const D: usize> Cells<D> {
@@ -26,13 +37,8 @@ impl<const D: usize> Cells<D> {
         (0..D).fold(0, |place, a| place * self.count(a) + cell[a])
     }
 
-    fn cell(&self, mut place: usize) -> [usize; D] {
-        let mut cell = [0; D];
-        for a in (0..D).rev() {
-            cell[a] = place % self.count(a);
-            place /= self.count(a);
-        }
-        cell
+    fn cell(&self, place: usize) -> [usize; D] {
+        indices(place, from_fn(|a| self.count(a)))
     }
 
     /// The interval after `i`, if there is one.
@@ -108,7 +114,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
     domains: Domains<D>,
 ) -> Vec<Penalty> {
     let h = lattice.grid.h;
-    let axes: [AxisPieces; D] = std::array::from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
+    let axes: [AxisPieces; D] = from_fn(|a| B::pieces(&lattice.grid.axes[a], h));
     let degree = axes[0].degree;
     let mut cells = Cells { active: vec![false; axes.iter().map(|a| a.top.len()).product()], axes };
     let mut least = vec![1.0_f64; cells.active.len()];
@@ -116,13 +122,8 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
         let stencil = lattice.stencil(x, &half_size);
         let touched = stencil.axis.each_ref().map(|axis| B::touched(axis));
         for k in 0..touched.iter().product() {
-            let mut rest = k;
-            let cell = std::array::from_fn(|a| {
-                let i = stencil.axis[a].first + rest % touched[a];
-                rest /= touched[a];
-                i
-            });
-            let place = cells.place(&cell);
+            let index = indices(k, touched);
+            let place = cells.place(&from_fn(|a| stencil.axis[a].first + index[a]));
             cells.active[place] = true;
             least[place] = least[place].min(share.get(p).copied().unwrap_or(1.0));
         }
@@ -132,7 +133,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
         (0..cells.active.len()).map(|place| cells.active[place] && cells.at_edge(&cells.cell(place))).collect();
     let mut first_node = usize::MAX;
     lattice.for_each_node(|node, _| first_node = first_node.min(node));
-    let strides: [usize; D] = std::array::from_fn(|a| match D - a {
+    let strides: [usize; D] = from_fn(|a| match D - a {
         1 => 1,
         2 => lattice.row_length(),
         _ => lattice.plane(),
@@ -158,20 +159,12 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
                 jump[k + 1] += axis.top[after][k];
                 jump[k] -= axis.top[cell[normal]][k];
             }
-            let counts: [usize; D] = std::array::from_fn(|a| if a == normal { degree + 2 } else { degree + 1 });
+            let counts: [usize; D] = from_fn(|a| if a == normal { degree + 2 } else { degree + 1 });
             let functions: usize = counts.iter().product();
-            let split = |mut k: usize| {
-                let mut index = [0; D];
-                for a in (0..D).rev() {
-                    index[a] = k % counts[a];
-                    k /= counts[a];
-                }
-                index
-            };
             let mut stiffness = DMatrix::zeros(functions * components, functions * components);
             for j in 0..functions {
                 for i in 0..functions {
-                    let (p, q) = (split(i), split(j));
+                    let (p, q) = (indices(i, counts), indices(j, counts));
                     let mut k = scale * jump[p[normal]] * jump[q[normal]];
                     for a in (0..D).filter(|a| *a != normal) {
                         k *= cells.axes[a].mass[cell[a]][p[a]][q[a]];
@@ -182,7 +175,7 @@ pub(super) fn penalties<const D: usize, const S: usize, B: Pieces<S>>(
                 }
             }
             let node = (0..functions).map(|k| {
-                let index = split(k);
+                let index = indices(k, counts);
                 (0..D).fold(first_node, |node, a| {
                     let (at, n) = (cell[a] + index[a], cells.count(a));
                     // A face where an axis closes has functions beyond the last image.

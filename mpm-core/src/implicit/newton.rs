@@ -1,8 +1,14 @@
 //! Newton's method with a line search, for the equations of any solver.
 
 use super::failure::Failure;
-use crate::error::Fault;
+use crate::error::{Error, Fault, require};
 use crate::ledger::Ledger;
+
+/// Checks a tolerance of Newton's method: below the least one rounding decides.
+pub(crate) fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    let allowed = (1e-13..=1e-2).contains(&tolerance);
+    require(allowed, "tolerance of Newton's method", tolerance, "from 1e-13 to 1e-2")
+}
 
 /// Values of the unknowns, and what the equations make of them.
 pub(crate) struct Point<T> {

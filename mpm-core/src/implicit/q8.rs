@@ -128,7 +128,7 @@ impl Interpolation<2> for Serendipity {
 
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error> {
         match stabilisation {
-            Stabilisation::Ghost(factor) | Stabilisation::Following(factor) => Err(Error::Input {
+            Stabilisation::Ghost(factor) => Err(Error::Input {
                 what: "ghost penalty of serendipity elements, factor",
                 value: factor,
                 allowed: "none or soft: their derivatives jump across all faces",

@@ -89,7 +89,7 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
     scene.body = Body::new(law.clone(), some).unwrap();
-    let settings = Settings::new(1.0).stabilised(stabilisation).tolerance(1e-13);
+    let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).stabilised(stabilisation) };
     let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine { gradient, centre: CENTRE }), settings).unwrap();
     solver.step().unwrap();
     // Parts of an affine motion, one after the other, are another one.
@@ -160,7 +160,7 @@ fn standing<const D: usize, M: Law>(cells: usize, places: Places, law: M, weight
 /// comes to two before rounding ends it.
 #[test]
 fn newton_converges_quadratically() {
-    let settings = Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)).tolerance(1e-11);
+    let settings = Settings { tolerance: 1e-11, ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)) };
     for remedy in [Remedy::None, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(4, Places::Uniform, NeoHookean::new(YOUNG, POISSON).unwrap(), 1e4);
         let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings.remedy(remedy)).unwrap();
@@ -323,10 +323,40 @@ fn loner(stabilisation: Stabilisation) -> f64 {
 
 #[test]
 fn stabilisations_bound_the_condition() {
-    let bounded = [Stabilisation::GHOST, Stabilisation::Soft(0.01)];
+    let bounded = [Stabilisation::Ghost(GHOST), Stabilisation::Soft(0.01)];
     let found = bounded.map(loner);
     assert!(found.iter().all(|c| *c < 1e6), "{found:?}");
     assert!(loner(Stabilisation::None) > 1e12);
+}
+
+/// Clay between walls that yields under its weight below a depth: the penalty is made of what flow keeps.
+#[test]
+fn a_ghost_penalty_spares_what_flows() {
+    let shares = |strength: f64| {
+        let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
+        let axes = [Axis::walls(0.0, CELLS), Axis::bounded(0.0, CELLS + 2, (Side::Wall, Side::Open))];
+        let rollers = [(0, End::Lo), (0, End::Hi), (1, End::Lo)];
+        let scene = filled(axes, CELLS, Places::Uniform, law)
+            .constrain_all(rollers.map(|(axis, end)| Wall::new(axis, end, WallKind::Roller)))
+            .load(BodyForce(Box::new(|_, t| [0.0, -t])));
+        let settings = Settings::new(0.1).stabilised(Stabilisation::Ghost(GHOST));
+        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+        (0..9).for_each(|_| solver.step().unwrap());
+        solver.kept_stiffness(&solver.averaging().0, 0.1)
+    };
+    assert!(shares(YOUNG).is_empty());
+    let [least, most] = [f64::min, f64::max].map(|of| shares(100.0).into_iter().reduce(of).unwrap());
+    assert!(least < 0.01 && most > 0.9, "{least} {most}");
+}
+
+#[test]
+fn a_penalty_stands_for_all_steps_that_raise_the_load() {
+    let loads = |size: f64| [SVector::from([0.0, size]), SVector::from([size, 0.0])];
+    for (earlier, later, steps) in
+        [(0.0, 1.0, 1.0), (0.9, 1.0, 10.0), (1.0, 1.0, 1.0), (1.0, 0.5, 1.0), (0.9999, 1.0, 100.0)]
+    {
+        assert!((steps_of_load(&loads(earlier), &loads(later)) - steps).abs() < 1e-9, "{earlier} {later}");
+    }
 }
 
 #[test]
@@ -337,7 +367,7 @@ fn what_is_not_allowed_is_named() {
         assert!(error.to_string().contains(what), "{error}");
     };
     refused(Settings::new(0.0), "load step");
-    refused(Settings::new(1.0).tolerance(0.5), "tolerance");
+    refused(Settings { tolerance: 0.5, ..Settings::new(1.0) }, "tolerance");
     refused(Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)), "stabilisation");
     refused(Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)), "ghost");
     let wall = Wall::new(0, End::Hi, WallKind::Separable);

@@ -1,6 +1,7 @@
 //! Settings of the solver of solid and water.
 
 use crate::error::{Error, positive, require};
+use crate::implicit::newton::check_tolerance;
 
 /// The functions of the pore pressure, beside those of the displacement on cells of size h.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,12 +121,6 @@ impl Settings {
         Self { volume_rate, ..self }
     }
 
-    /// With a tolerance of Newton's method.
-    #[must_use]
-    pub fn tolerance(self, tolerance: f64) -> Self {
-        Self { tolerance, ..self }
-    }
-
     /// With ghost penalties on displacement and pressure.
     #[must_use]
     pub fn ghosts(self, displacement: f64, pressure: f64) -> Self {
@@ -140,12 +135,7 @@ impl Settings {
     pub(super) fn check(&self, conservative: bool) -> Result<(), Error> {
         positive(self.dt, "time step", "positive (s)")?;
         positive(self.growth, "growth of the time step", "positive")?;
-        require(
-            self.tolerance >= 1e-13 && self.tolerance <= 1e-2,
-            "tolerance of Newton's method",
-            self.tolerance,
-            "from 1e-13 to 1e-2",
-        )?;
+        check_tolerance(self.tolerance)?;
         if let PressureSpace::Projected { strength } = self.pressure_space {
             positive(strength, "strength of the pressure projection", "positive (1/Pa)")?;
         }

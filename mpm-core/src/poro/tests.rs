@@ -115,7 +115,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
-    let settings = Settings::new(1.0).ghosts(0.1, 0.01).tolerance(1e-13);
+    let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).ghosts(0.1, 0.01) };
     let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
     solver.step().unwrap();
     let exact = law.update(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();

@@ -33,6 +33,7 @@ parameters! { pub(super) const:
         "particles per cell and direction";
     LOAD_STEPS = "load_steps", "-", "4", Domain::Integer { least: 1, most: 10_000 },
         "equal steps of the load";
+    GHOST = "ghost", "-", "0.001", number(0.0, 1.0, false), "implicit: ghost penalty, in shares of Young's modulus; 0: none";
     STEP_SCALING = "step_scaling", "-", "h", Domain::Choice(&["h", "h2"]), "h: the time step shrinks with h; h2: with h², from the one at eight cells per side";
 }
 

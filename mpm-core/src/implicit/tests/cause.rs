@@ -10,7 +10,7 @@ fn cause_of<M: Law>(scene: Scene<2, M>, settings: Settings) -> Cause {
 #[test]
 fn a_body_that_is_held_is_sound() {
     let scene = standing::<2, _>(4, Places::Uniform, rubber(), 1.0);
-    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::GHOST));
+    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(GHOST)));
     assert!(matches!(cause, Cause::Sound(share) if share > 0.5 && share < 1.5), "{cause:?}");
 }
 
@@ -26,7 +26,7 @@ fn a_hair_is_told_from_the_body() {
 #[test]
 fn a_body_that_nothing_holds_is_loose() {
     let scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, rubber());
-    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::GHOST));
+    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(GHOST)));
     assert!(matches!(cause, Cause::Loose(_, share) if share == 1.0), "{cause:?}");
     assert!(cause.to_string().contains("add a support"));
 }
@@ -41,7 +41,7 @@ fn a_part_that_has_come_off_is_named() {
     }
     let scene =
         scene.constrain(Wall::new(1, End::Lo, WallKind::Fixed)).constrain(Wall::new(0, End::Lo, WallKind::Roller));
-    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::GHOST));
+    let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(GHOST)));
     let Cause::Loose(at, share) = cause else { panic!("{cause:?}") };
     assert!((share - 0.5).abs() < 1e-9 && (at[1] - 6.0 * H).abs() < 1e-9, "{cause:?}");
     assert!(cause.to_string().contains("50.000 % of the body"));
@@ -56,7 +56,7 @@ fn a_body_at_its_limit_load_gives_way() {
     let scene = filled(axes, CELLS, Places::Uniform, law)
         .constrain(Wall::new(1, End::Lo, WallKind::Fixed))
         .load(BodyForce(Box::new(move |_, t| [limit * t, 0.0])));
-    let settings = Settings::new(0.1).stabilised(Stabilisation::GHOST);
+    let settings = Settings::new(0.1).stabilised(Stabilisation::Ghost(GHOST));
     let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
     let error = (0..20).find_map(|_| solver.step().err()).unwrap();
     let Error::NoConvergence { time, cause, .. } = error else { panic!("{error}") };

@@ -56,7 +56,7 @@ fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2, Quadratics<2>, NeoHook
     }
     scene.body.particles.velocity.fill([0.1, -SPEED]);
     let contact = floor(&scene.body.particles, gap, FORCE);
-    let settings = Settings::new(dt).rule(rule).tolerance(1e-12);
+    let settings = Settings { tolerance: 1e-12, ..Settings::new(dt).rule(rule) };
     Solver::new(scene.contact(contact), settings).unwrap()
 }
 

@@ -27,7 +27,7 @@ fn rubber() -> NeoHookean {
 }
 
 fn moving<I: Interpolation<2>, M: Law>(law: M, rule: TimeRule) -> Solver<2, I, M> {
-    let settings = Settings::new(DT).rule(rule).tolerance(1e-12);
+    let settings = Settings { tolerance: 1e-12, ..Settings::new(DT).rule(rule) };
     Solver::new(tumbling(law), settings).unwrap()
 }
 
@@ -82,7 +82,7 @@ fn a_body_falls_freely() {
             *x = x.map(|x| x + 3.0 * H);
         }
         let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
-        let settings = Settings::new(DT).rule(rule).tolerance(1e-13);
+        let settings = Settings { tolerance: 1e-13, ..Settings::new(DT).rule(rule) };
         let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
         solver.advance(10).unwrap();
         let time: f64 = 10.0 * DT;
@@ -129,7 +129,7 @@ fn swinging() -> Scene<2, NeoHookean> {
 
 /// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
-    let settings = Settings::new(0.08 / f64::from(steps)).rule(rule).tolerance(1e-12);
+    let settings = Settings { tolerance: 1e-12, ..Settings::new(0.08 / f64::from(steps)).rule(rule) };
     let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
     solver.advance(steps as usize).unwrap();
     let p = solver.particles();

@@ -79,7 +79,7 @@ pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Se
     let contact = floor(&scene.body.particles, 0.5 * DISTANCE, EACH);
     let friction = friction(stick(contact.barrier()));
     let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
-    let settings = settings.stabilised(Stabilisation::Ghost(1e-3)).tolerance(TOLERANCE);
+    let settings = Settings { tolerance: TOLERANCE, ..settings.stabilised(Stabilisation::Ghost(1e-3)) };
     let scene = scene.contact(contact.with_friction(friction)).load(Gravity(Box::new(gravity)));
     Solver::new(scene, settings).unwrap()
 }

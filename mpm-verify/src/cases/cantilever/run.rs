@@ -96,7 +96,7 @@ impl Setup<Cantilever> {
         let stabilisation = match self.stabilisation {
             Stabilised::None => Stabilisation::None,
             Stabilised::Soft => Stabilisation::Soft(self.stabilisation_factor),
-            Stabilised::Ghost => Stabilisation::Ghost(self.stabilisation_factor),
+            Stabilised::Ghost => Stabilisation::ghost(self.ghost),
         };
         let settings = Settings {
             tolerance: self.tolerance,

@@ -19,7 +19,7 @@ const SINGULAR: f64 = 3.0;
 
 /// Young's modulus (Pa) of the stored solutions; stresses scale with it.
 const MODULUS: f64 = 70.0;
-/// Poisson's ratio of the stored field and of the solutions with the load on another line.
+/// Poisson's ratio of the stored field.
 const RATIO: f64 = 0.499;
 /// Spacing of the lattice of the reference field (m); its first point is at half of it.
 const LATTICE: f64 = 0.5;
@@ -77,6 +77,7 @@ impl Deflections {
 /// The change when the load acts on x = 48 m − h/4 instead of the side.
 #[derive(Debug, Clone, Copy, Deserialize)]
 struct LoadShift {
+    poisson_ratio: f64,
     h: f64,
     #[serde(flatten)]
     change: Deflections,
@@ -119,7 +120,7 @@ impl Solution {
         }
     }
 
-    /// Whether the field of mean stress and the shifts by the place of the load are those of this solution.
+    /// Whether the field of mean stress is that of this solution.
     pub(super) fn has_field(&self) -> bool {
         self.poisson_ratio == RATIO
     }
@@ -164,7 +165,8 @@ impl Setup<Cook> {
 
     /// The change due to the load's place, if it is stored for these cells.
     pub(super) fn load_shift(&self) -> Option<&'static Deflections> {
-        document().ok()?.load_inset.iter().find(|s| s.h == self.h).map(|s| &s.change)
+        let same = |s: &&LoadShift| s.h == self.h && s.poisson_ratio == self.poisson_ratio;
+        document().ok()?.load_inset.iter().find(same).map(|s| &s.change)
     }
 
     /// The solution under a load of 10 to 50 N that acts h/4 from the side, if it is stored.

@@ -18,8 +18,6 @@ const FOOTING: usize = 3;
 const REACH: f64 = 0.25;
 /// Penetration over B between two rows of the series.
 const ROW: f64 = 1e-5;
-/// Ghost penalty of a quasi-static run: particles that rise beside the footing come to functions that hardly see them.
-const RIM: f64 = 1e-7;
 /// Share of its reach by which the barrier gives way under Prandtl's pressure.
 const GIVES_WAY: f64 = 0.002;
 /// Parameters of an explicit run only, and of a quasi-static run only.
@@ -259,7 +257,11 @@ impl Problem<2> for Pressing {
             }
         };
         match setup.implicit_settings(self.pace.dt) {
-            Some(own) => mpm_solvers::implicit(setup.scheme, scene, own.stabilised(Stabilisation::Ghost(RIM))),
+            Some(own) => mpm_solvers::implicit(
+                setup.scheme,
+                scene,
+                own.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST)),
+            ),
             None => setup.explicit(scene, self.pace.dt, setup.damping),
         }
     }

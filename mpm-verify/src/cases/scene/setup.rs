@@ -242,7 +242,7 @@ impl<const D: usize> Setup<D> {
         let settings = implicit::Settings::new(phase.dt).rule(rule);
         implicit::Settings {
             tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
-            stabilisation: form.ghost_penalty.map_or(Stabilisation::GHOST, |factor| Stabilisation::ghost(factor.0)),
+            stabilisation: Stabilisation::ghost(form.ghost_penalty.map_or(GHOST, |factor| factor.0)),
             ..settings
         }
     }

@@ -18,8 +18,6 @@ const LOOKS: usize = 8;
 const STATIC_LOOKS: usize = 40;
 /// Local damping of a trial.
 const TRIAL_DAMPING: f64 = 0.5;
-/// Ghost penalty of a quasi-static run: docs/slope-stability.md.
-const RIM: f64 = 1e-3;
 
 /// A trial.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -198,7 +196,11 @@ impl Problem<2> for Trials {
         if let Some(settings) = setup.implicit_settings(setup.look()) {
             let rise = if seen.factor.is_none() { 1.0 } else { 0.0 };
             let scene = ground.scene(setup, strength, rise)?;
-            return mpm_solvers::implicit(setup.scheme, scene, settings.stabilised(Stabilisation::Ghost(RIM)));
+            return mpm_solvers::implicit(
+                setup.scheme,
+                scene,
+                settings.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST)),
+            );
         }
         let (rise, damping) = match seen.factor {
             None => (RISE, STAGE_DAMPING),
