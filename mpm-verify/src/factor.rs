@@ -4,7 +4,9 @@
 
 use crate::draw::{Chart, Dash, Marker, Series};
 use crate::error::Error;
+use crate::files::write_csv;
 use crate::record::{Record, Status};
+use std::path::Path;
 
 /// Growth of the displacement by which a body fails: in heights of the body, and in displacements at the least factor.
 const GROWS: [f64; 2] = [1.0 / 200.0, 2.0];
@@ -81,6 +83,16 @@ impl Search {
                 format!("Factor of safety {:.3}: stands at {stands:.3}, fails at {fails:.3}.", (stands * fails).sqrt())
             }
         }
+    }
+
+    /// Writes the trials as a table.
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
+        let header = ["factor", "displacement_max_m", "stands"].map(str::to_owned);
+        let row = |t: &Trial| vec![t.factor.to_string(), t.moved.to_string(), t.stands.to_string()];
+        write_csv(path, &header, self.trials.iter().map(row))
     }
 
     /// Displacement over the factor.

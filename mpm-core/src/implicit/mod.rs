@@ -318,7 +318,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         let place = self.settings.rule.place();
         let earlier = self.external(self.ledger.time, &setting.elements);
         let external = self.external(self.ledger.time + place * dt, &setting.elements);
-        if self.settings.rule == TimeRule::Static {
+        if self.settings.rule == TimeRule::Static && matches!(self.settings.stabilisation, Stabilisation::Ghost(_)) {
             let steps = steps_of_load(&earlier, &external);
             setting.penalties.iter_mut().for_each(|penalty| penalty.stiffness *= steps);
         }

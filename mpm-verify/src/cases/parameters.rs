@@ -90,3 +90,11 @@ pub(super) fn least_strain(steps: f64) -> f64 {
 pub(crate) fn is_of_own_problem(record: &Record) -> bool {
     record.changes_none_but(&[CFL.name, STEP_SCALING.name, LOAD_STEPS.name, PPC_PER_DIRECTION.name])
 }
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn cases_have_the_ghost_penalty_of_scenes() {
+        assert_eq!(super::GHOST.default.parse(), Ok(mpm_core::implicit::GHOST));
+    }
+}

@@ -36,6 +36,7 @@ impl Factor {
         if let Some(out) = self.making.folder() {
             let _held = hold(out)?;
             draw_charts(&out.join("factor.png"), &[search.chart()], 1)?;
+            search.write(&out.join("factor.csv"))?;
         }
         say(search.result() + "\n")?;
         Ok(ExitCode::Good)

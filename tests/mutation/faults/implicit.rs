@@ -9,7 +9,7 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
         file: "implicit/equilibrium.rs",
         sound: "particles.reference_volume[p] * j",
         broken: "1.02 * particles.reference_volume[p] * j",
-        seen_by: &[(MEMBRANE, "load-at-its-place"), (BENT_MEMBRANE, "large-loads"), (SLOW, "order-displacement")],
+        seen_by: &[(MEMBRANE, "mid-edge"), (BENT_MEMBRANE, "large-loads"), (SLOW, "order-displacement")],
     },
     Fault {
         name: "a load step ends before its load",

@@ -148,10 +148,9 @@ impl Setup<Cook> {
     /// Largest distance (m) of a run from the reference.
     fn tolerance(&self, of: Measure) -> f64 {
         let exact = self.exact(of);
-        let relative = if self.h > RESOLVED {
+        let relative = if self.h > RESOLVED && !self.is_judged_place() {
             // The stored shift is for a load at h/4 from the side, two particles per direction.
-            let inside = self.load_at == LoadAt::Column && !self.is_judged_place();
-            let inset = if inside { 2.0 / self.ppc_per_direction as f64 } else { 0.0 };
+            let inset = if self.load_at == LoadAt::Column { 2.0 / self.ppc_per_direction as f64 } else { 0.0 };
             let moved = self.load_shift().map_or(0.0, |s| inset * s.of(of).abs());
             moved / exact + of.element_error() * self.h
         } else {
@@ -346,7 +345,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
                 Demand::above(excess, move |c| of.element_error() * c.h * c.exact(of)).when(|c| c.solution().is_ok())
             }))
             .because("functions of the rim that see hardly any material bear hardly any load; the explicit case has them too"),
-        Check::truth("large-loads", "quasi-static none, rim held, 10 to 50 N, h = 1 m: right side within 1 % of FEM with the load on the same line of material")
+        Check::truth("large-loads", "quasi-static, rim held, 10 to 50 N, h = 1 m, except GIMP without a remedy: right side within 1 % of FEM with the load on the same line of material")
             .each([MidEdge, EdgeMean].map(|of| {
                 let known = move |c: &Run<Cook>| c.under_large_load(of);
                 Demand::within(
@@ -355,10 +354,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
                     move |c| known(c).map_or(f64::NAN, |(_, tolerance)| tolerance),
                 )
                 .when(move |c| known(c).is_some())
-                .unless(|c| {
-                    let soft = c.remedy() != RemedyName::None;
-                    soft.then(|| "F-bar is softer by about the tolerance: at some loads within it, at others not".to_owned())
-                })
+                .unless(|c| (c.basis() == Gimp && !c.is_free_of_locking()).then(|| "see locked".to_owned()))
             }))
             .because("finite elements of degree 4 under the same load on the same line, this project"),
         Check::truth("tip", "u_y at (48, 60) m within 2 % of the FEM reference; above h = 1 m as for mid-edge")
