@@ -84,10 +84,6 @@ impl<P> Gate<P> {
         };
         gates.iter().find_map(stops).unwrap_or(Passage::Judged)
     }
-
-    fn all_pass(gates: &[Self], run: &Run<P>) -> bool {
-        matches!(Self::passage(gates, run), Passage::Judged)
-    }
 }
 
 /// One quantity of a check with its bound.
@@ -374,7 +370,7 @@ impl<P: ParameterSet> CheckOf<P> {
     /// The runs that pass `when`.
     fn runs<'a>(&self, records: &'a [Record]) -> Vec<Run<'a, P>> {
         let runs = Run::all(records);
-        runs.filter(|r| Gate::all_pass(&self.gates, r)).collect()
+        runs.filter(|r| matches!(Gate::passage(&self.gates, r), Passage::Judged)).collect()
     }
 
     fn orders(

@@ -5,7 +5,7 @@
 use crate::draw::{Chart, Dash, Marker, Series};
 use crate::error::Error;
 use crate::files::write_csv;
-use crate::record::{Record, Status};
+use crate::record::{Failure, LIMIT_LOAD, Record, Status};
 use std::path::Path;
 
 /// Growth of the displacement by which a body fails: in heights of the body, and in displacements at the least factor.
@@ -18,6 +18,8 @@ struct Trial {
     /// Largest displacement (m) of a particle; NaN without an equilibrium.
     moved: f64,
     stands: bool,
+    /// Error of a run that ended without a sign of failure.
+    unclear: Option<String>,
 }
 
 /// A search for the factor.
@@ -64,7 +66,10 @@ impl Search {
         let first = self.trials.first().map_or(moved, |first| first.moved);
         let kink = (GROWS[0] * self.height).max(GROWS[1] * first);
         let stands = moved < SLUMPS * self.height && moved - first < kink;
-        self.trials.push(Trial { factor, moved, stands });
+        // A slump can leave the grid; a step that finds no equilibrium for another reason is no failure of the ground.
+        let told = |e: &&Failure| e.kind != LIMIT_LOAD && e.kind != "off-grid";
+        let unclear = run.error.as_ref().filter(told).map(|e| e.message.clone());
+        self.trials.push(Trial { factor, moved, stands, unclear });
         self.trials.sort_by(|a, b| a.factor.total_cmp(&b.factor));
         let why = run.error.as_ref().map_or_else(|| format!("moved {moved:.4} m"), |e| e.message.clone());
         format!("{factor:.4}  {}  {why}", if stands { "stands" } else { "fails" })
@@ -72,14 +77,19 @@ impl Search {
 
     /// The result in a sentence.
     pub fn result(&self) -> String {
-        match self.bracket() {
-            [stands, _] if stands.is_nan() => {
+        let unclear = self.trials.iter().find(|t| !t.stands).and_then(|t| t.unclear.as_ref());
+        match (self.bracket(), unclear) {
+            ([stands, fails], Some(why)) => {
+                let stands = if stands.is_nan() { String::new() } else { format!("Stands at {stands:.3}. ") };
+                format!("{stands}At {fails:.3} the run ends without a sign of failure: {why}")
+            }
+            ([stands, _], _) if stands.is_nan() => {
                 format!("Fails at the least factor, {}: try less (--least).", self.range[0])
             }
-            [_, fails] if fails.is_nan() => {
+            ([_, fails], _) if fails.is_nan() => {
                 format!("Stands at the largest factor, {}: try more (--most).", self.range[1])
             }
-            [stands, fails] => {
+            ([stands, fails], _) => {
                 format!("Factor of safety {:.3}: stands at {stands:.3}, fails at {fails:.3}.", (stands * fails).sqrt())
             }
         }
@@ -138,6 +148,25 @@ mod tests {
             assert!(search.result().contains("safety 1.66"), "{}", search.result());
             assert_eq!(search.trials.len(), 12);
             assert!(search.chart().shows_something());
+        }
+    }
+
+    #[test]
+    fn a_run_that_ends_for_another_reason_is_no_failure() {
+        for (kind, clear) in [(LIMIT_LOAD, true), ("off-grid", true), ("no-convergence", false), ("singular", false)] {
+            let mut search = Search::new([1.0, 3.0], 10.0, 3).unwrap();
+            while let Some(factor) = search.next() {
+                let mut run = record("h1", Vec::new());
+                run.metrics.insert("displacement_max".to_owned(), Measured { value: Some(0.01), unit: "m".to_owned() });
+                if factor > 1.0 {
+                    run.status = Status::Failed;
+                    let (kind, message) = (kind.to_owned(), "take shorter steps".to_owned());
+                    run.error = Some(Failure { kind, message, time: 0.5, step: 1, particle: 0, value: None });
+                }
+                search.add(factor, &run);
+            }
+            assert_eq!(search.result().contains("without a sign of failure: take shorter steps"), !clear);
+            assert_eq!(search.result().contains("Factor of safety 1.3"), clear, "{}", search.result());
         }
     }
 

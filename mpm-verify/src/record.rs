@@ -27,10 +27,13 @@ pub enum Status {
     Failed,
 }
 
+/// Kind of a step without equilibrium in which the body gives way.
+pub(crate) const LIMIT_LOAD: &str = "limit-load";
+
 /// Where and why a run broke down.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Kind of fault.
+    /// Kind of fault: [`LIMIT_LOAD`] or another one.
     pub kind: String,
     /// Time (s).
     pub time: f64,

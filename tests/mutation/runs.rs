@@ -111,9 +111,8 @@ pub(crate) const TURNED_BEAM: Runs = &["cantilever --level h0.1 --set law=jauman
 /// A membrane in equilibrium, in one step on the lattice; and one far bent.
 pub(crate) const MEMBRANE: Runs =
     &["cook --solver quasi-static --remedy fbar-consistent --level h1 --set load_steps=1"];
-pub(crate) const BENT_MEMBRANE: Runs = &[
-    "cook --solver quasi-static --basis bspline2 --remedy none --level h1 --set load=10 --set load_steps=5",
-];
+pub(crate) const BENT_MEMBRANE: Runs =
+    &["cook --solver quasi-static --basis bspline2 --remedy none --level h1 --set load=10 --set load_steps=5"];
 /// A slow vortex over the cells, and over Poisson's ratios.
 pub(crate) const SLOW: Runs = &["mms-static --level n8", "mms-static --level n16", "mms-static --level n32"];
 pub(crate) const SLOW_RATIOS: Runs = &["mms-static --level n8", "mms-static --level n8 --set poisson_ratio=0.3"];

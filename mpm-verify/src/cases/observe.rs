@@ -99,7 +99,7 @@ impl<P: ParameterSet> Setup<P> {
     }
 }
 
-/// Whether a static step has found equilibrium. One that has not leaves the body as it was.
+/// Whether steps have ended well: a static one that has found no equilibrium leaves the body as it was.
 ///
 /// # Errors
 /// It failed for another reason.

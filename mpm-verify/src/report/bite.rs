@@ -25,7 +25,8 @@ fn beyond(verdict: &Verdict) -> Vec<f64> {
 }
 
 /// Known limits that say nothing of runs in which they do not show: each explains a miss, and demands none.
-const SHOWN_WHERE_SEEN: [&str; 8] = [
+const SHOWN_WHERE_SEEN: [&str; 9] = [
+    "few-particles",
     "locks",
     "coarse-bending",
     "front-missed",

@@ -117,7 +117,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     for case in cases::all() {
         let of_case = records.iter().filter(|r| r.case == case.name);
         let mut study = CaseStudy::new(case.name, of_case.cloned().collect());
-        if drawn_of(case.name, Rows) && !study.records.is_empty() {
+        if shown().any(|(name, _, of)| name == case.name && of == Rows) && !study.records.is_empty() {
             study.convergence = convergence(case, &study.records);
             convergence::draw(&study, out)?;
             sweep::draw(&study, out)?;
@@ -126,10 +126,6 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     }
     Speed::of(&studies).draw(&out.join("results"))?;
     Ok(())
-}
-
-fn drawn_of(case: &str, from: Source) -> bool {
-    shown().any(|(folder, _, source)| folder == case && source == from)
 }
 
 /// Draws what the cases draw of their runs; returns the runs' tier.

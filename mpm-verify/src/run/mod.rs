@@ -13,11 +13,12 @@ use crate::files::{
 };
 use crate::job::{Column, Job, Snapshot};
 use crate::parameter::Parameters;
-use crate::record::{Failure, Record, Status, Timing};
+use crate::record::{Failure, LIMIT_LOAD, Record, Status, Timing};
 use crate::spec::RunSpec;
 use crate::verdict::Verdict;
 use checkpoint::{Checkpoint, Identity, Keeper, Refusal, Saving};
 use cpu_time::ProcessTime;
+use mpm_core::error::Cause;
 use series::Series;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -327,14 +328,17 @@ fn failure(error: &mpm_core::Error) -> Failure {
         Failure { kind, time: 0.0, step: 0, particle: 0, value, message }
     };
     let finite = |value: f64| Some(value).filter(|v| v.is_finite());
+    let stopped = |cause, other| if matches!(cause, Cause::GivesWay(..)) { LIMIT_LOAD } else { other };
     match *error {
         mpm_core::Error::Breakdown { time, step, particle, fault } => {
             Failure { kind: fault.kind().to_owned(), time, step, particle, value: finite(fault.value()), message }
         }
-        mpm_core::Error::NoConvergence { time, step, residual, .. } => {
-            Failure { time, step, ..before_any_step("no-convergence", finite(residual)) }
+        mpm_core::Error::NoConvergence { time, step, residual, cause, .. } => {
+            Failure { time, step, ..before_any_step(stopped(cause, "no-convergence"), finite(residual)) }
         }
-        mpm_core::Error::Singular { time, step, .. } => Failure { time, step, ..before_any_step("singular", None) },
+        mpm_core::Error::Singular { time, step, cause, .. } => {
+            Failure { time, step, ..before_any_step(stopped(cause, "singular"), None) }
+        }
         mpm_core::Error::Lost { time, step, value, .. } => {
             Failure { time, step, ..before_any_step("lost-share", finite(value)) }
         }

@@ -53,11 +53,6 @@ impl Measure {
         self.metrics()[0]
     }
 
-    /// Relative tolerance on cells of at most a metre.
-    fn fine_tolerance(self, h: f64) -> f64 {
-        if self == Tip { TIP_TOLERANCE } else { EDGE_TOLERANCE * h }
-    }
-
     /// Relative error of a locking-free bilinear element, per metre of cell size.
     fn element_error(self) -> f64 {
         if self == Tip { ELEMENT_ERROR.1 } else { ELEMENT_ERROR.0 }
@@ -153,8 +148,10 @@ impl Setup<Cook> {
             let inset = if self.load_at == LoadAt::Column { 2.0 / self.ppc_per_direction as f64 } else { 0.0 };
             let moved = self.load_shift().map_or(0.0, |s| inset * s.of(of).abs());
             moved / exact + of.element_error() * self.h
+        } else if of == Tip {
+            TIP_TOLERANCE
         } else {
-            of.fine_tolerance(self.h)
+            EDGE_TOLERANCE * self.h
         };
         relative * exact.abs() + self.solution().map_or(f64::NAN, |s| s.uncertainty_displacement)
     }

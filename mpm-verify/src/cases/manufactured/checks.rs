@@ -121,11 +121,6 @@ impl Wave {
         }
     }
 
-    /// Reason why no bound on the error of a run is claimed, if there is one.
-    fn unbounded(&self, r: &Run<()>, claim: &Claim) -> Option<&'static str> {
-        self.unposed(r).or_else(|| Self::shortcoming(r, claim))
-    }
-
     /// Largest error over the motion.
     fn bound(&self, r: &Run<()>) -> f64 {
         let kh = self.resolution(r);
@@ -153,7 +148,7 @@ pub(in crate::cases) fn of_motion(claims: Claims, wave: Wave) -> Vec<Check> {
             .when(move |r| r.metric(DISPLACEMENT_L2) > wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
             .above(DISPLACEMENT_L2, move |r| wave.bound(r) * r.metric(DISPLACEMENT_SCALE))
             .because_of(move |r| Wave::shortcoming(r, &claims(r)).unwrap_or_default().to_owned()),
-        motion_lost(move |r| wave.unbounded(r, &claims(r))),
+        motion_lost(move |r| wave.unposed(r).or_else(|| Wave::shortcoming(r, &claims(r)))),
     ];
     checks.extend(orders(&[(DISPLACEMENT_L2, claims)]));
     checks

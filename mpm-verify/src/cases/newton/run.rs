@@ -191,8 +191,7 @@ impl Problem<2> for Loaded {
         let rate = run.convergence().and_then(|of| newton_rate(of, self.settings().tolerance));
         seen.rate = rate.into_iter().chain(seen.rate).reduce(f64::max);
         // A step that was not taken is a row of its end.
-        let step = 1.0 / f64::from(self.setup.load_steps);
-        let ahead = if seen.stopped { step } else { 0.0 };
+        let ahead = if seen.stopped { self.settings().dt } else { 0.0 };
         Ok(row! {
             "load (-)": run.time() + ahead,
             "equilibrium_error (-)": self.error(run, run.time()).unwrap_or(f64::NAN),
@@ -202,10 +201,8 @@ impl Problem<2> for Loaded {
     }
 
     fn progress(&self, seen: &Found, phase: &Phase<2>) -> f64 {
-        if seen.stopped {
-            return 1.0;
-        }
-        phase.share_of(self.setup.load_steps as u64)
+        let share = phase.share_of(self.setup.load_steps as u64);
+        if seen.stopped { 1.0 } else { share }
     }
 
     fn particles<'a>(&self, _: &Found, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
@@ -217,7 +214,6 @@ impl Problem<2> for Loaded {
         let run = phase.run.as_ref();
         let carried = run.time();
         let bearable = if self.setup.stands() { 1.0 } else { (1.0 / self.setup.load).min(1.0) };
-        let cells = (self.setup.h / HEIGHT).powi(2);
         let mut values = vec![
             (CARRIED, carried),
             (BEARABLE, bearable),
@@ -225,13 +221,10 @@ impl Problem<2> for Loaded {
             (PARTS, f64::from(seen.parts)),
         ];
         if carried > 0.0 {
-            let error = self.error(run, carried);
-            let exact = self.exact(carried);
-            values.extend(error.map(|e| (EQUILIBRIUM_ERROR, e)));
-            values.extend(exact.map(|e| (BOUND, cells * e.curvature)));
+            values.extend(self.error(run, carried).map(|e| (EQUILIBRIUM_ERROR, e)));
+            values.extend(self.exact(carried).map(|e| (BOUND, (self.setup.h / HEIGHT).powi(2) * e.curvature)));
             let held = if self.setup.stands() { Part::Contact(0) } else { Part::Constraint(UPPER_END) };
-            let area = ACROSS as f64 * self.setup.h;
-            let weight = carried * self.weight * area;
+            let weight = carried * self.weight * ACROSS as f64 * self.setup.h;
             let force = run.on(held).force[1].abs();
             values.push((REACTION_ERROR, force / weight - 1.0));
             values.extend(seen.rate.map(|rate| (NEWTON_RATE, rate)));
@@ -241,8 +234,7 @@ impl Problem<2> for Loaded {
             if self.setup.stands()
                 && let Ok([mean, exact]) = self.gaps(run, carried)
             {
-                let reach = REACH * self.setup.h;
-                values.push((GAP_ERROR, (mean - exact) / reach));
+                values.push((GAP_ERROR, (mean - exact) / (REACH * self.setup.h)));
             }
         }
         values

@@ -4,6 +4,7 @@ use super::*;
 use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
+use crate::cases::observe::finds_equilibrium;
 use crate::exact::vortex_box::ENTRY;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit;
@@ -84,13 +85,9 @@ impl Analysis for Clouds {
     }
 
     fn analyse(&self, k: usize) -> Result<Cloud, Fault> {
-        use Fault::{Breakdown, NoConvergence, Singular};
         let mut run = self.begin(k)?;
-        let found = match (0..self.steps).try_for_each(|_| run.step()) {
-            Ok(()) => Some(self.errors(run.as_mut())),
-            Err(Breakdown { .. } | NoConvergence { .. } | Singular { .. }) => None,
-            Err(other) => return Err(other),
-        };
+        let found = finds_equilibrium((0..self.steps).try_for_each(|_| run.step()))?;
+        let found = found.then(|| self.errors(run.as_mut()));
         let work = run.work().into();
         Ok(Cloud { found, work })
     }

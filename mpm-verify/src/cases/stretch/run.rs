@@ -1,6 +1,7 @@
 //! Scene, observations and predictions of the body.
 
 use super::*;
+use crate::cases::observe::finds_equilibrium;
 use crate::exact::stretched_lattice::Lattice;
 use mpm_core::explicit::Settings;
 use mpm_core::stage::Constraint;
@@ -241,13 +242,9 @@ where
         let to = (seen.rows * self.steps).div_ceil(rows);
         let done = phase.steps(to - phase.run.work().steps);
         let stretch = Self::stretch::<D>(phase.run.as_ref());
-        match done {
-            Ok(()) => {}
-            // A run that stops is complete.
-            Err(Fault::Breakdown { .. } | Fault::NoConvergence { .. } | Fault::Singular { .. }) => {
-                seen.stopped = Some(stretch);
-            }
-            Err(other) => return Err(other),
+        // A run that stops is complete.
+        if !finds_equilibrium(done)? {
+            seen.stopped = Some(stretch);
         }
         let [mean, error] = self.stresses(phase.run.as_mut());
         let h = self.setup.h;
