@@ -22,10 +22,11 @@ impl Beam<'_> {
         self.tolerance.max(self.metric(FORCE_ROUNDING))
     }
 
-    /// Stiffness along the beam, EA/L, over that of its tip, 3EI/L³, times M/2G.
+    /// Stiffness along the beam, EA/L, over that of its tip, 3EI/L³, times M/2G; and of a rim with its penalty, γ E a step.
     fn stiffnesses(&self) -> f64 {
+        let ghost = if self.stabilisation == Stabilised::Ghost { self.ghost } else { 0.0 };
         let volume = (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio);
-        4.0 * (run::LENGTH / run::DEPTH).powi(2) * volume
+        4.0 * (run::LENGTH / run::DEPTH).powi(2) * volume * (1.0 + ghost * f64::from(self.load_steps))
     }
 
     fn is_unstable(&self) -> bool {

@@ -35,8 +35,7 @@ pub(super) struct Trial {
 /// Observations of the trials.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
-    /// Initial state of a trial under gravity: the ground at rest with its full strength, or in equilibrium with the least
-    /// strength with which it stood.
+    /// The ground at rest with its full strength: initial state of a trial in motion. In equilibrium gravity rises anew.
     ground: Option<Saved>,
     /// Places (m) in it at rest with its full strength, in seeding order.
     rest: Vec<[f64; 2]>,
@@ -72,10 +71,9 @@ impl Setup<Stability> {
         0.5 * (self.most - 1.0) / 2.0_f64.powf(f64::from(self.trials) - 1.0)
     }
 
-    /// Whether standard MPM locks. In equilibrium nothing overshoots, so that fine splines lock, too.
+    /// Whether standard MPM locks.
     pub(super) fn locks(&self) -> bool {
-        let locks = self.basis() == Gimp || self.h > FINE || self.is_implicit() && self.h >= FINE;
-        self.remedy() == RemedyName::None && locks
+        self.remedy() == RemedyName::None && (self.basis() == Gimp || self.h > FINE)
     }
 
     /// The factor of limit analysis; NaN of another angle than 45°.
@@ -147,10 +145,14 @@ impl Trials {
     fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, mpm_core::Error> {
         let height = self.setup.height;
         let (mut moved, mut time, mut fails) = (0.0, 0.0, false);
-        let looks = match self.setup.is_implicit() {
-            true => STATIC_LOOKS,
-            false => LOOKS,
-        };
+        let mut looks = LOOKS;
+        if self.setup.is_implicit() {
+            looks = STATIC_LOOKS;
+            time = 1.0;
+            if !finds_equilibrium(phase.steps(self.setup.load_steps as u64))? {
+                return Ok(Trial { factor, fails: true, moved, time });
+            }
+        }
         for _ in 0..looks {
             let found = self.goes_on(phase)?;
             time += self.setup.look();
@@ -194,8 +196,7 @@ impl Problem<2> for Trials {
         let (setup, ground) = (&self.setup, &self.ground);
         let strength = Strength::perfect(setup.strength / seen.factor.unwrap_or(1.0))?;
         if let Some(settings) = setup.implicit_settings(setup.look()) {
-            let rise = if seen.factor.is_none() { 1.0 } else { 0.0 };
-            let scene = ground.scene(setup, strength, rise)?;
+            let scene = ground.scene(setup, strength, 1.0)?;
             return mpm_solvers::implicit(
                 setup.scheme,
                 scene,
@@ -225,10 +226,9 @@ impl Problem<2> for Trials {
         };
         let factor = self.setup.next_factor(seen);
         seen.factor = Some(factor);
-        phase.enter(self.begin(seen)?, Some(&ground))?;
+        phase.enter(self.begin(seen)?, Some(&ground).filter(|_| !is_static))?;
         let trial = self.try_factor(factor, &seen.rest, phase)?;
-        let goes_on = is_static && !trial.fails;
-        seen.ground = Some(if goes_on { phase.run.body()? } else { ground });
+        seen.ground = Some(ground);
         seen.trials.push(trial);
         Ok(row! {
             "trial (-)": seen.trials.len() as f64,
