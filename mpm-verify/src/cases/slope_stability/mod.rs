@@ -105,7 +105,7 @@ fn checks() -> Vec<Check> {
             .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those for 45°".to_owned()))
             .within(STRENGTH_REDUCTION_FACTOR, move |c| 0.5 * (lower(c) + upper(c)), move |c| 0.5 * (upper(c) - lower(c)))
             .because("limit analysis: docs/exact.md"),
-        Check::known_limit("locked", "none with GIMP, or quadratic splines at h > 0.2 m: the slope stands above the upper limit of limit-load")
+        Check::known_limit("locked", "none with GIMP, or quadratic splines at h > 0.2 m, quasi-static from 0.2 m on: the slope stands above the upper limit of limit-load")
             .when(|c| c.bounds().is_some() && c.locks())
             .above(STANDS_AT, move |c| upper(c) - c.resolution())
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),

@@ -71,9 +71,10 @@ impl Setup<Stability> {
         0.5 * (self.most - 1.0) / 2.0_f64.powf(f64::from(self.trials) - 1.0)
     }
 
-    /// Whether standard MPM locks.
+    /// Whether standard MPM locks. In equilibrium nothing overshoots, so that fine splines lock, too.
     pub(super) fn locks(&self) -> bool {
-        self.remedy() == RemedyName::None && (self.basis() == Gimp || self.h > FINE)
+        let coarse = self.h > FINE || self.is_implicit() && self.h >= FINE;
+        self.remedy() == RemedyName::None && (self.basis() == Gimp || coarse)
     }
 
     /// The factor of limit analysis; NaN of another angle than 45°.
@@ -145,9 +146,8 @@ impl Trials {
     fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, mpm_core::Error> {
         let height = self.setup.height;
         let (mut moved, mut time, mut fails) = (0.0, 0.0, false);
-        let mut looks = LOOKS;
+        let looks = if self.setup.is_implicit() { STATIC_LOOKS } else { LOOKS };
         if self.setup.is_implicit() {
-            looks = STATIC_LOOKS;
             time = 1.0;
             if !finds_equilibrium(phase.steps(self.setup.load_steps as u64))? {
                 return Ok(Trial { factor, fails: true, moved, time });
