@@ -10,7 +10,7 @@ const PAIRS: u64 = 142_516_000_000;
 
 /// Entries of the matrices that it factorises, over all factorisations: some thirty seconds of a processor, assembly
 /// and all; a ninth of it are the discs', 19.4 million the manufactured motion of solid and water's, 12.8
-/// `consolidation`'s, 19.8 `mandel`'s, 14.7 `strip`'s, 37 `excavation`'s, 3.7 `footing`'s, 3.5 `slope-stability`'s, 8.3
+/// `consolidation`'s, 19.8 `mandel`'s, 14.7 `strip`'s, 37 `excavation`'s, 3.7 `footing`'s, 4.2 `slope-stability`'s, 8.3
 /// `newton`'s, 1.2 `drop`'s, 0.4 `stretch`'s, 19.3 `sparse`'s, 11.7 `thin`'s.
 const NONZEROS: u64 = 222_000_000;
 

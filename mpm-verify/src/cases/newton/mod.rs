@@ -106,7 +106,6 @@ fn plan() -> Plan {
         .each(Nightly, "n8 n16", &all, cut)
         .each(Nightly, "n8", &all, small)
         .each(Nightly, "n8", &smooth, ["load_steps=100 ppc_per_direction=3", "load_steps=1000 ppc_per_direction=3"])
-        .runs(Pr, "n8", &all[5..], "load_steps=100 ppc_per_direction=3")
         .runs(Nightly, "n16", &all, "")
         .each(Nightly, "n16", &all, sure)
 }

@@ -86,7 +86,7 @@ fn plan() -> Plan {
         .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &all, "")
         .runs(Long, "h0.1", &all, "")
-        .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3")
+        .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3 load_steps=2")
         .runs(Nightly, "h0.4 h0.2", &statics, "")
         .runs(Long, "h0.1", &statics, "")
 }
