@@ -33,7 +33,7 @@ pub(crate) const LIMIT_LOAD: &str = "limit-load";
 /// Where and why a run broke down.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// Kind of fault: [`LIMIT_LOAD`] or another one.
+    /// Kind of fault, such as `limit-load`.
     pub kind: String,
     /// Time (s).
     pub time: f64,
