@@ -70,7 +70,7 @@ use unknowns::{Pattern, Unknowns};
 
 /// Least share of the elastic stiffness that the ghost penalty of ground that flows is made of.
 const FLOWS: f64 = 1e-3;
-/// Most steps that the penalty of one stands for: γ = 0.1 still costs no accuracy (docs/cantilever.md).
+/// Most steps that the penalty of one stands for, chosen: those of the finest runs that are kept (docs/cook.md).
 const MOST_STEPS: f64 = 100.0;
 
 /// Number of steps like that from loads `earlier` on (N) which raise the loads to these; one where none are raised.

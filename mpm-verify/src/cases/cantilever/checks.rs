@@ -26,7 +26,7 @@ impl Beam<'_> {
     fn stiffnesses(&self) -> f64 {
         let ghost = if self.stabilisation == Stabilised::Ghost { self.ghost } else { 0.0 };
         let volume = (1.0 - self.poisson_ratio) / (1.0 - 2.0 * self.poisson_ratio);
-        4.0 * (run::LENGTH / run::DEPTH).powi(2) * volume * (1.0 + ghost * f64::from(self.load_steps))
+        4.0 * (run::LENGTH / run::DEPTH).powi(2) * volume * (1.0 + ghost * f64::from(self.load_steps.min(100)))
     }
 
     fn is_unstable(&self) -> bool {
