@@ -100,7 +100,9 @@ pub fn execute(
         }
         record.verdicts = judge(&record);
         if let Some(journal) = journal {
-            write_particles(&journal.folder, &job.particles())?;
+            let particles = job.particles();
+            write_columns(&journal.folder.join(PARTICLES), &particles)?;
+            write_vtu(&journal.folder.join("particles.vtu"), &particles)?;
             record.files = journal.written()?;
             write_json(&journal.folder.join(RECORD), &record)?;
             journal.keeper.end()?;
@@ -345,11 +347,6 @@ fn failure(error: &mpm_core::Error) -> Failure {
         mpm_core::Error::Input { value, .. } => before_any_step("input", finite(value)),
         mpm_core::Error::Memory(_) => before_any_step("memory", None),
     }
-}
-
-fn write_particles(folder: &Path, columns: &[Column]) -> Result<(), Error> {
-    write_columns(&folder.join(PARTICLES), columns)?;
-    write_vtu(&folder.join("particles.vtu"), columns)
 }
 
 /// File that names the snapshots of a run for ParaView, with their times.

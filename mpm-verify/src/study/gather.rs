@@ -3,7 +3,7 @@
 use super::convergence::convergence;
 use super::found::record_in;
 use super::judge::judge;
-use super::plan::{Plan, PlannedRun};
+use super::plan::{self, Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
 use super::*;
 use crate::record;
@@ -75,7 +75,7 @@ impl Gathered {
     /// twice, a run has no record, or a record is damaged, of another schema, run or program.
     pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
         if let [folder] = folders
-            && !Plan::is_in(folder)
+            && !folder.join(plan::FILE).exists()
             && folder.join(RECORD).exists()
         {
             return Self::read_single(folder);

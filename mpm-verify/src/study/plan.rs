@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 /// Version of the plan's format.
 const SCHEMA: u32 = 1;
 /// Name of the plan's file.
-const FILE: &str = "plan.json";
+pub(super) const FILE: &str = "plan.json";
 /// Maximum number of shards; more is almost certainly a typo.
 const MAX_SHARDS: usize = 10_000;
 
@@ -169,12 +169,6 @@ impl Plan {
     /// The file can't be written.
     pub fn write(&self, folder: &Path) -> Result<(), Error> {
         write_json(&folder.join(FILE), self)
-    }
-
-    /// Whether a folder has a plan.
-    #[must_use]
-    pub fn is_in(folder: &Path) -> bool {
-        folder.join(FILE).exists()
     }
 
     /// Reads the plan of a folder.

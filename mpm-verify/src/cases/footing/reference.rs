@@ -146,7 +146,7 @@ impl Setup<Footing> {
         match self.effective_width().0 {
             width if width == WIDTH => Ok(Elements::Vanishing),
             width if width == WIDTH + self.h => Ok(Elements::OfCells),
-            _ => Err("no elements act as wide as cubic splines".to_owned()),
+            _ => Err("no elements act as wide as splines with nodes on grid lines".to_owned()),
         }
     }
 

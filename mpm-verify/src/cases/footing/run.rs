@@ -48,18 +48,18 @@ impl Pace {
 
 impl Setup<Footing> {
     /// Width (m) that a footing of held nodes acts with, and its uncertainty: up to the middle between the last held node and
-    /// the first free one. Quadratic splines have their nodes in the middle of cells, the others on grid lines. Between cubic
-    /// splines the velocity falls from that of the footing a cell inside of its edge to that of the free ground two cells
-    /// outside: the place is known to half a cell at either end. A barrier ends between the particles that it pushes and those
+    /// the first free one. Quadratic splines of open knots have their nodes in the middle of cells, the others on grid lines.
+    /// Between those splines the velocity falls from that of the footing within a cell inside of its edge to that of the free
+    /// ground two cells outside: the place is known to half a cell at either end. A barrier ends between the particles that it pushes and those
     /// that share nodes with them, up to a cell away.
     pub(super) fn effective_width(&self) -> (f64, f64) {
         if self.presses_by_barrier() {
             return (WIDTH + self.h, self.h);
         }
         match self.basis() {
-            Bspline2 => (WIDTH, 0.0),
+            Bspline2 if self.wall == common::Wall::OpenKnot => (WIDTH, 0.0),
             Linear | Gimp | BasisName::Q8 => (WIDTH + self.h, 0.0),
-            Bspline3 => (WIDTH + 0.5 * self.h, 0.5 * self.h),
+            Bspline2 | Bspline3 => (WIDTH + 0.5 * self.h, 0.5 * self.h),
         }
     }
 
