@@ -7,7 +7,7 @@ mod body;
 
 use body::{DENSITY, fluid, sheared, soil, solid};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Xpic};
 use mpm_core::explicit::{Remedy, Transfer};
 use mpm_core::material::Law;
@@ -75,8 +75,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     writeln!(stdout(), "{}", instructions())?;
     let (solid, soil, fluid) = (solid()?, soil()?, fluid()?);
     let (flip, xpic) = (Flip::default(), || Xpic::new(3));
-    let (total, rate) = (FbarTotal::default, FbarRate::default);
-    let (recursive, consistent) = (FbarRecursive::default, FbarConsistent::default);
+    let (total, rate) = (|| Fbar::new(Form::Total), || Fbar::new(Form::Rate));
+    let (recursive, consistent) = (|| Fbar::new(Form::Recursive), || Fbar::new(Form::Consistent));
 
     run::<2, 3, Gimp>("2d-solid-gimp", solid, Standard, flip)?;
     run::<2, 3, QuadraticBSpline>("2d-solid-bspline2-total-apic", solid, total(), Apic)?;

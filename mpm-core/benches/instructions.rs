@@ -10,7 +10,7 @@ use body::{fluid, sheared, soil, solid};
 use gungraun::{library_benchmark, library_benchmark_group, main};
 use mpm_core::basis::{Gimp, QuadraticBSpline};
 use mpm_core::explicit::Remedy;
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRecursive, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::transfer::Flip;
 use mpm_core::material::Law;
 use mpm_core::{Basis, Error, Simulation};
@@ -43,21 +43,21 @@ type Begun<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 
 #[library_benchmark]
 #[bench::soil_gimp(begin::<2, Gimp, _>(soil(), Standard))]
-#[bench::soil_gimp_consistent(begin::<2, Gimp, _>(soil(), FbarConsistent::default()))]
-#[bench::soil_bspline2_recursive(begin::<2, QuadraticBSpline, _>(soil(), FbarRecursive::default()))]
+#[bench::soil_gimp_consistent(begin::<2, Gimp, _>(soil(), Fbar::new(Form::Consistent)))]
+#[bench::soil_bspline2_recursive(begin::<2, QuadraticBSpline, _>(soil(), Fbar::new(Form::Recursive)))]
 #[bench::fluid_bspline2(begin::<2, QuadraticBSpline, _>(fluid(), Standard))]
 #[bench::solid_bspline2(begin::<2, QuadraticBSpline, _>(solid(), Standard))]
-#[bench::solid_bspline2_recursive(begin::<2, QuadraticBSpline, _>(solid(), FbarRecursive::default()))]
+#[bench::solid_bspline2_recursive(begin::<2, QuadraticBSpline, _>(solid(), Fbar::new(Form::Recursive)))]
 fn plane_strain(simulation: Begun<2>) -> Begun<2> {
     steps(simulation)
 }
 
 #[library_benchmark]
 #[bench::soil_gimp(begin::<3, Gimp, _>(soil(), Standard))]
-#[bench::soil_gimp_consistent(begin::<3, Gimp, _>(soil(), FbarConsistent::default()))]
-#[bench::soil_bspline2_recursive(begin::<3, QuadraticBSpline, _>(soil(), FbarRecursive::default()))]
+#[bench::soil_gimp_consistent(begin::<3, Gimp, _>(soil(), Fbar::new(Form::Consistent)))]
+#[bench::soil_bspline2_recursive(begin::<3, QuadraticBSpline, _>(soil(), Fbar::new(Form::Recursive)))]
 #[bench::solid_bspline2(begin::<3, QuadraticBSpline, _>(solid(), Standard))]
-#[bench::solid_bspline2_recursive(begin::<3, QuadraticBSpline, _>(solid(), FbarRecursive::default()))]
+#[bench::solid_bspline2_recursive(begin::<3, QuadraticBSpline, _>(solid(), Fbar::new(Form::Recursive)))]
 fn space(simulation: Begun<3>) -> Begun<3> {
     steps(simulation)
 }

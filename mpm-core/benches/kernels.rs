@@ -13,8 +13,7 @@ use mpm_core::material::{HenckyJ2, Law, NeoHookean, Strength};
 use mpm_core::nodes::NodalState;
 use mpm_core::number::{EIGHT, Eight};
 use mpm_core::order::stencil_order;
-use mpm_core::projection::{Average, Averaging, Projection};
-use mpm_core::reach::Reach;
+use mpm_core::projection::{Average, Averaging, Space};
 use mpm_core::space::embed;
 use mpm_core::{Axis, Basis, Grid, Lattice, Particles, SymmetricTensor};
 use nalgebra::{Matrix2, SMatrix};
@@ -105,22 +104,19 @@ fn passes<const S: usize, B: Basis<S>>(c: &mut Criterion, name: &str) {
         });
     });
     let mut field = vec![1.0; p.len()];
-    let reach = Reach::of(&lattice, &p.position, &p.half_size);
-    let mut averaging = Averaging::new(lattice.len());
-    let mut count = 0;
-    let mut average = |again: bool, averaging: &mut Averaging<2, S>| {
+    let mut averaging = Averaging::new(lattice);
+    averaging.find_reach(&p, &slabs);
+    let mut average = |again: bool| {
         if !again {
             averaging.expire();
         }
-        let mut projection =
-            Projection { lattice: &lattice, slabs: &slabs, reach: &reach, averaging, count: &mut count };
-        projection.average(&p, &mut field);
+        averaging.average(&p, &mut field);
     };
     group.bench_function("first average of a step", |b| {
-        b.iter(|| average(false, &mut averaging));
+        b.iter(|| average(false));
     });
     group.bench_function("further average", |b| {
-        b.iter(|| average(true, &mut averaging));
+        b.iter(|| average(true));
     });
     group.finish();
 }

@@ -1,10 +1,10 @@
 //! A block of nearly incompressible rubber, 1 m wide and 1 m high, sags under its weight: without a remedy, and with
-//! `FbarConsistent`. Prints by how much the middle of its top has sunk and how rough the pressure is.
+//! F̄. Prints by how much the middle of its top has sunk and how rough the pressure is.
 //!
 //! `cargo run --release -p mpm-core --example block`
 
 use mpm_core::basis::QuadraticBSpline;
-use mpm_core::explicit::remedy::{FbarConsistent, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::{Remedy, Settings, Solver, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
@@ -56,7 +56,7 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, remedy) in
-        [("none", Box::new(Standard) as Box<dyn Remedy<2>>), ("fbar-consistent", Box::new(FbarConsistent::default()))]
+        [("none", Box::new(Standard) as Box<dyn Remedy<2>>), ("fbar-consistent", Box::new(Fbar::new(Form::Consistent)))]
     {
         let (sunk, rough) = sag(remedy)?;
         writeln!(stdout(), "{name:16} sinks by {:.2} mm, noise {rough:.2}", 1e3 * sunk)?;

@@ -27,7 +27,7 @@
 //!
 //! ```
 //! use mpm_core::basis::QuadraticBSpline;
-//! use mpm_core::explicit::remedy::FbarConsistent;
+//! use mpm_core::explicit::remedy::{Fbar, Form};
 //! use mpm_core::explicit::{Settings, Solver, courant_time_step};
 //! use mpm_core::material::{Law, NeoHookean};
 //! use mpm_core::stage::{BodyForce, End, Wall, WallKind};
@@ -46,7 +46,7 @@
 //!     let scene = Scene::new(grid, Body::new(law, particles)?)
 //!         .load(BodyForce(Box::new(|_, _| [0.0, -9.81])))
 //!         .constrain(Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed });
-//!     let settings = Settings::new(dt).remedy(Box::new(FbarConsistent::default()));
+//!     let settings = Settings::new(dt).remedy(Box::new(Fbar::new(Form::Consistent)));
 //!     // Three quadratic splines are non-zero at a point.
 //!     let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings)?;
 //!     while solver.time() < 0.05 {

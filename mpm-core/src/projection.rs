@@ -5,11 +5,13 @@
 
 mod patch;
 
-use crate::basis::Basis;
+use crate::basis::{BSpline, Basis, WallTreatment};
+use crate::grid::Grid;
 use crate::lattice::{Lattice, Weights};
 use crate::parallel::{CHUNK, NODE_CHUNK, for_each_piece, scatter};
 use crate::particles::Particles;
 use crate::reach::Reach;
+use crate::work::Work;
 use patch::{Patch, ROW};
 use std::ops::Range;
 
@@ -20,10 +22,41 @@ pub trait Average<const D: usize> {
     fn average(&mut self, particles: &Particles<D>, field: &mut [f64]);
 }
 
-/// Workspace of averages. Weights and nodal volumes serve all averages until the particles move or change their
+/// The functions that Π averages with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub enum Onto {
+    /// Those of the basis, as Zhao, Jiang & Choo (2023) have it.
+    #[default]
+    Basis,
+    /// Linear hats of the same grid.
+    Hats,
+    /// Constants of a cell. They don't overlap, so that Π² = Π.
+    Cells,
+}
+
+/// A space of functions that fields of the particles are averaged with.
+pub trait Space<const D: usize>: Average<D> + Send {
+    /// Marks weights and volumes as outdated: call it when particles have moved, changed volume or order.
+    fn expire(&mut self);
+
+    /// Forgets all nodal values and finds the nodes within the particles' reach: call it when particles are sorted into
+    /// these `slabs`.
+    fn find_reach(&mut self, particles: &Particles<D>, slabs: &[Range<usize>]);
+
+    /// Pairs of a particle and a function in an average, per particle.
+    fn pairs(&self) -> u64;
+}
+
+/// Averages on a lattice. Weights and nodal volumes serve all averages until the particles move or change their
 /// volumes: a remedy that averages six times in a step computes them once.
 #[derive(Debug, Clone)]
-pub struct Averaging<const D: usize, const S: usize> {
+pub struct Averaging<const D: usize, const S: usize, B> {
+    /// The lattice whose functions average.
+    lattice: Lattice<D, S, B>,
+    /// The nodes within the particles' reach.
+    reach: Reach,
+    /// Ranges of particles by slab.
+    slabs: Vec<Range<usize>>,
     /// Weights of every particle.
     weights: Vec<Weights<D, S>>,
     /// V_i of every node. These two arrays are longer than the lattice by the padding of the last row.
@@ -34,38 +67,33 @@ pub struct Averaging<const D: usize, const S: usize> {
     current: bool,
 }
 
-impl<const D: usize, const S: usize> Averaging<D, S> {
-    /// Workspace for a lattice with this number of nodes.
-    #[must_use]
-    pub fn new(nodes: usize) -> Self {
-        Self { weights: Vec::new(), volumes: vec![0.0; nodes + ROW], values: vec![0.0; nodes + ROW], current: false }
-    }
-
-    /// Forgets all nodal values: call it when nodes may have left the particles' reach.
-    pub fn clear(&mut self) {
-        self.volumes.fill(0.0);
-        self.values.fill(0.0);
-        self.current = false;
-    }
-
-    /// Marks weights and volumes as outdated: call it when particles have moved, changed volume or order.
-    pub fn expire(&mut self) {
-        self.current = false;
+/// The space on `grid` of these functions, or of the basis, which meets walls as told.
+pub fn space<const D: usize, const S: usize, B: Basis<S>>(
+    grid: Grid<D>,
+    wall: WallTreatment,
+    onto: Option<Onto>,
+) -> Box<dyn Space<D>> {
+    match onto {
+        None | Some(Onto::Basis) => Box::new(Averaging::<D, S, B>::new(Lattice::new(grid, wall))),
+        Some(Onto::Hats) => Box::new(Averaging::<D, 2, BSpline<2>>::new(Lattice::new(grid, wall))),
+        Some(Onto::Cells) => Box::new(Averaging::<D, 1, BSpline<1>>::new(Lattice::new(grid, WallTreatment::OpenKnot))),
     }
 }
 
-/// Π on a lattice.
-pub struct Projection<'a, const D: usize, const S: usize, B> {
-    /// The lattice whose functions average.
-    pub lattice: &'a Lattice<D, S, B>,
-    /// Ranges of particles by slab.
-    pub slabs: &'a [Range<usize>],
-    /// The nodes within the particles' reach.
-    pub reach: &'a Reach,
-    /// Workspace.
-    pub averaging: &'a mut Averaging<D, S>,
-    /// Counts the applications.
-    pub count: &'a mut u64,
+/// Π in a step: a space, and the counts of the work.
+pub struct Projection<'a, const D: usize> {
+    /// The space.
+    pub space: &'a mut dyn Space<D>,
+    /// Counts applications, and pairs of particle and function.
+    pub work: &'a mut Work,
+}
+
+impl<const D: usize> Average<D> for Projection<'_, D> {
+    fn average(&mut self, particles: &Particles<D>, field: &mut [f64]) {
+        self.space.average(particles, field);
+        self.work.projections += 1;
+        self.work.particle_node_pairs += self.space.pairs() * particles.len() as u64;
+    }
 }
 
 /// Scatters to `nodes`, one value per node, what `given` holds for a particle.
@@ -122,40 +150,62 @@ fn divide(values: &mut [f64], volumes: &[f64]) {
     }
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>> Projection<'_, D, S, B> {
+impl<const D: usize, const S: usize, B: Basis<S>> Averaging<D, S, B> {
+    /// Averages on a lattice.
+    #[must_use]
+    pub fn new(lattice: Lattice<D, S, B>) -> Self {
+        let (reach, n) = (Reach::everything(&lattice), lattice.len() + ROW);
+        let (weights, volumes, values) = (Vec::new(), vec![0.0; n], vec![0.0; n]);
+        Self { lattice, reach, slabs: Vec::new(), weights, volumes, values, current: false }
+    }
+
     /// Weights and nodal volumes of the particles.
     fn prepare(&mut self, particles: &Particles<D>) {
-        let (lattice, averaging) = (self.lattice, &mut *self.averaging);
-        averaging.weights.resize(particles.len(), Weights::default());
-        let columns = (&mut averaging.weights[..], &particles.position[..]);
+        let lattice = &self.lattice;
+        self.weights.resize(particles.len(), Weights::default());
+        let columns = (&mut self.weights[..], &particles.position[..]);
         for_each_piece(columns, particles.len(), CHUNK, &|_, (weights, x)| {
             lattice.weights(x, &particles.half_size, weights);
         });
         let volume = &particles.volume;
-        let (weights, volumes) = (&averaging.weights, &mut averaging.volumes);
-        scatter_values(lattice, self.slabs, weights, self.reach, volumes, |p| volume[p]);
-        averaging.current = true;
+        scatter_values(lattice, &self.slabs, &self.weights, &self.reach, &mut self.volumes, |p| volume[p]);
+        self.current = true;
     }
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Projection<'_, D, S, B> {
+impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Averaging<D, S, B> {
     fn average(&mut self, particles: &Particles<D>, field: &mut [f64]) {
-        if !self.averaging.current {
+        if !self.current {
             self.prepare(particles);
         }
-        let (lattice, averaging) = (self.lattice, &mut *self.averaging);
-        let (weights, values) = (&averaging.weights, &mut averaging.values);
+        let Self { lattice, reach, slabs, weights, volumes, values, .. } = self;
         let (volume, given): (&[f64], &[f64]) = (&particles.volume, field);
-        scatter_values(lattice, self.slabs, weights, self.reach, values, |p| volume[p] * given[p]);
-        let fields = (&mut values[..], &averaging.volumes[..]);
-        let (reach, n) = (self.reach, averaging.volumes.len());
-        for_each_piece(fields, n, NODE_CHUNK, &|begin, (values, volumes)| {
+        scatter_values(lattice, slabs, weights, reach, values, |p| volume[p] * given[p]);
+        let n = volumes.len();
+        for_each_piece((&mut values[..], &volumes[..]), n, NODE_CHUNK, &|begin, (values, volumes)| {
             for part in reach.within(begin, values.len()) {
                 divide(&mut values[part.clone()], &volumes[part]);
             }
         });
         lattice.unfold(values);
         gather_values(lattice, weights, values, field);
-        *self.count += 1;
+    }
+}
+
+impl<const D: usize, const S: usize, B: Basis<S>> Space<D> for Averaging<D, S, B> {
+    fn expire(&mut self) {
+        self.current = false;
+    }
+
+    fn find_reach(&mut self, particles: &Particles<D>, slabs: &[Range<usize>]) {
+        self.slabs = slabs.to_vec();
+        self.reach = Reach::of(&self.lattice, &particles.position, &particles.half_size);
+        self.volumes.fill(0.0);
+        self.values.fill(0.0);
+        self.current = false;
+    }
+
+    fn pairs(&self) -> u64 {
+        2 * (S as u64).pow(D as u32)
     }
 }

@@ -110,7 +110,12 @@ impl<const S: usize> Basis<S> for BSpline<S> {
     fn nodes(&self) -> AxisNodes {
         let degree = S - 1;
         let count = self.pattern.len() + degree;
-        let greville = |i: usize| -> f64 { self.knots[i + 1..=i + degree].iter().sum::<f64>() / degree as f64 };
+        let greville = |i: usize| -> f64 {
+            match degree {
+                0 => self.knots[i] + 0.5,
+                _ => self.knots[i + 1..=i + degree].iter().sum::<f64>() / degree as f64,
+            }
+        };
         AxisNodes {
             position: (0..count).map(|i| self.origin + self.h * greville(i)).collect(),
             original: self.period.map(|cells| (0..count).map(|i| i % cells).collect()),
@@ -179,6 +184,9 @@ impl<const S: usize> BSpline<S> {
 #[inline(always)]
 fn uniform_functions<T: Real, const S: usize>(t: T) -> ([T; S], [T; S]) {
     let number = |n: usize| T::splat(n as f64);
+    if S == 1 {
+        return ([number(1); S], [number(0); S]);
+    }
     let left = number(1) - t;
     let (mut w, mut slope) = ([T::default(); S], [T::default(); S]);
     (w[0], w[1]) = (left, t);

@@ -69,7 +69,7 @@ pub struct AxisNodes {
 }
 
 /// A one-dimensional basis with at most `S` functions non-zero at a point.
-pub trait Basis<const S: usize>: Send + Sync + Sized {
+pub trait Basis<const S: usize>: Send + Sync + Sized + 'static {
     /// The functions on `axis` with cells of size `h` (m).
     fn new(axis: &Axis, h: f64, wall: WallTreatment) -> Self;
 

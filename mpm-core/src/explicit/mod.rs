@@ -27,7 +27,7 @@ use crate::monitor::{Reaction, Totals};
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
-use crate::projection::{Average, Averaging, Projection};
+use crate::projection::{Onto, Space, space};
 use crate::reach::Reach;
 use crate::scene::Part;
 use crate::scene::Scene;
@@ -95,7 +95,8 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     nodes: Vec<NodalState>,
     /// The acceleration of all material in the step (m/s²).
     gravity: Node,
-    averaging: Averaging<D, S>,
+    /// What the remedy averages with.
+    space: Box<dyn Space<D>>,
     /// The nodes that particles see until they are sorted again; all others are zero.
     reach: Reach,
     /// All prescribed velocities, and those of nodes within reach.
@@ -195,15 +196,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it is not counted.
     pub fn average(&mut self, field: &mut [f64]) {
-        let mut uncounted = 0;
-        Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut self.averaging,
-            count: &mut uncounted,
-        }
-        .average(&self.scene.body.particles, field);
+        let particles = &self.scene.body.particles;
+        let other = self.settings.remedy.averages_onto().is_some_and(|onto| onto != Onto::Basis);
+        let mut own = other.then(|| {
+            let mut own = space::<D, S, B>(self.scene.grid, self.settings.wall, None);
+            own.find_reach(particles, &self.slabs);
+            own
+        });
+        own.as_mut().unwrap_or(&mut self.space).average(particles, field);
     }
 
     /// After the law: the greatest modulus of waves.

@@ -14,7 +14,7 @@ const MOTION: f64 = 3.0;
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// After the particles' motion: sorts them when one may have left the neighbours of the cell where it was.
     pub(super) fn sort_if_needed(&mut self) {
-        self.averaging.expire();
+        self.space.expire();
         let mut largest = 0.0_f64;
         for sums in &self.chunk_sums {
             let jump = if sums.wrapped { f64::INFINITY } else { 0.0 };
@@ -47,7 +47,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             contact.find_near(self.ledger.time, MOTION * self.scene.grid.h, p);
         }
         self.nodes.fill(NodalState::default());
-        self.averaging.clear();
+        self.space.find_reach(p, &self.slabs);
         let within = self.declared.iter().filter(|c| self.reach.contains(c.node));
         self.prescribed.clear();
         self.prescribed.extend(within);

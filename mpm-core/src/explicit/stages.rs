@@ -226,37 +226,17 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
 
     /// The mean stress of the forces, where the remedy has a share in it.
     pub(super) fn average_stress(&mut self) {
-        let before = self.ledger.work.projections;
-        let mut projection = Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut self.averaging,
-            count: &mut self.ledger.work.projections,
-        };
+        let mut projection = Projection { space: self.space.as_mut(), work: &mut self.ledger.work };
         let particles = &self.scene.body.particles;
         let remedy = &mut self.settings.remedy;
         remedy.force_mean(particles, &mut projection, &mut self.force_mean);
-        self.count_averages_since(before);
-    }
-
-    fn count_averages_since(&mut self, before: u64) {
-        self.ledger.work.particle_node_pairs +=
-            (self.ledger.work.projections - before) * self.transfer_pairs * self.ledger.work.particles;
     }
 
     /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
     /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
         let second_half = self.second_half();
-        let before = self.ledger.work.projections;
-        let mut projection = Projection {
-            lattice: &self.lattice,
-            slabs: &self.slabs,
-            reach: &self.reach,
-            averaging: &mut self.averaging,
-            count: &mut self.ledger.work.projections,
-        };
+        let mut projection = Projection { space: self.space.as_mut(), work: &mut self.ledger.work };
         let (remedy, body) = (self.settings.remedy.as_mut(), &mut self.scene.body);
         let next = remedy.next_j_bar(&body.particles, &self.deformation, &mut projection);
         let all = (body.chunk(), self.deformation.chunk());
@@ -277,7 +257,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
                 }
             });
         }
-        self.count_averages_since(before);
         self.first_fault()
     }
 

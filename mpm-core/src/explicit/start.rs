@@ -9,7 +9,7 @@ use crate::ledger::Ledger;
 use crate::material::Law;
 use crate::nodes::{NodalState, Node};
 use crate::parallel::{CHUNK, NODE_CHUNK};
-use crate::projection::Averaging;
+use crate::projection::space;
 use crate::reach::Reach;
 use crate::room::Room;
 use crate::scene::Scene;
@@ -38,7 +38,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             particles.increment = Vec::new();
         }
         let n = particles.len();
-        let deformation = match settings.remedy.averages() || !scene.contacts.is_empty() {
+        let deformation = match settings.remedy.averages_onto().is_some() || !scene.contacts.is_empty() {
             true => Deformation::of(settings.remedy.as_ref(), n),
             false => Deformation::default(),
         };
@@ -46,7 +46,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
             slabs: Vec::new(),
             nodes: vec![NodalState::default(); lattice.len()],
             gravity: Node::ZERO,
-            averaging: Averaging::new(lattice.len()),
+            space: space::<D, S, B>(scene.grid, settings.wall, settings.remedy.averages_onto()),
             reach: Reach::everything(&lattice),
             declared: Vec::new(),
             prescribed: Vec::new(),

@@ -1,4 +1,4 @@
-//! The average A of F̄ on the functions of a step: A = I − (1 − ε)(I − Π)² with the volume average Π.
+//! The average A of F̄ on the functions of a step: the volume average Π, or I − (1 − ε)(I − Π)².
 //!
 //! V A is symmetric, and so Aᵀ = V A V⁻¹ of the volumes V at the step's start.
 
@@ -6,7 +6,7 @@ use super::elements::Elements;
 use crate::parallel::{LIGHT, map};
 
 /// The share ε of a field that Π cannot see which A keeps, as the explicit remedy does.
-pub(super) const UNSEEN: f64 = 0.01;
+const UNSEEN: f64 = 0.01;
 
 /// A, frozen in a step.
 pub(super) struct Average {
@@ -14,13 +14,20 @@ pub(super) struct Average {
     volume: Vec<f64>,
     /// One over the volume of every node, zero of nodes that see none.
     inverse: Vec<f64>,
+    /// Whether A is I − (1 − ε)(I − Π)².
+    sharp: bool,
 }
 
 impl Average {
-    pub(super) fn new<const D: usize>(elements: &Elements<D>, nodes: usize, volume: &[f64]) -> Self {
+    pub(super) fn new<const D: usize>(elements: &Elements<D>, nodes: usize, volume: &[f64], sharp: bool) -> Self {
         let of_nodes = elements.sums(nodes, volume);
         let inverse = |v: &f64| if *v > 0.0 { 1.0 / v } else { 0.0 };
-        Self { volume: volume.to_vec(), inverse: of_nodes.iter().map(inverse).collect() }
+        Self { volume: volume.to_vec(), inverse: of_nodes.iter().map(inverse).collect(), sharp }
+    }
+
+    /// The share of a field that Π cannot see which A keeps.
+    pub(super) fn unseen(&self) -> f64 {
+        if self.sharp { UNSEEN } else { 0.0 }
     }
 
     /// Π `field`.
@@ -46,6 +53,9 @@ impl Average {
     /// A `field`.
     pub(super) fn apply<const D: usize>(&self, elements: &Elements<D>, field: &[f64]) -> Vec<f64> {
         let smooth = self.project(elements, field);
+        if !self.sharp {
+            return smooth;
+        }
         let rough: Vec<f64> = field.iter().zip(&smooth).map(|(f, s)| f - s).collect();
         let seen = self.project(elements, &rough);
         let combine = |p: usize| smooth[p] + UNSEEN * rough[p] + (1.0 - UNSEEN) * seen[p];

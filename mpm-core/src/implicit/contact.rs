@@ -179,7 +179,7 @@ pub(super) fn check<const D: usize>(
         require(!periodic, "axis of a rigid face", axis as f64, "not periodic")?;
         let slipping = contact.friction().and_then(|f| f.coefficient());
         require(
-            slipping.is_none() || remedy != Remedy::FbarConsistent,
+            slipping.is_none() || remedy == Remedy::None,
             "friction coefficient of an implicit run with F-bar",
             slipping.unwrap_or(0.0),
             "none or infinite (rough): F-bar is solved by conjugate gradients, and slip has no symmetric stiffness",

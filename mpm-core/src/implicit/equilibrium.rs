@@ -1,7 +1,7 @@
 //! Forces and stiffness of a step.
 
 use super::algebra::dot;
-use super::average::{Average, UNSEEN};
+use super::average::Average;
 use super::contact::{self, Obstacle, Push};
 use super::elements::Elements;
 use super::inertia::{Inertia, Mass};
@@ -275,7 +275,7 @@ impl<const D: usize, M: Law> Step<'_, D, M> {
         let mut matrix = DMatrix::zeros(size, size);
         for p in self.elements.particles[element].clone() {
             let t = &tangents[p];
-            let own = UNSEEN * UNSEEN * t.pull_by_a;
+            let own = self.average.map_or(0.0, Average::unseen).powi(2) * t.pull_by_a;
             let (_, w, dw) = self.elements.seen(p);
             let volume = |g: &[f64; D], b: usize| dot(&t.cofactor[b], g);
             let inertia = self.inertia.map_or(0.0, |i| i.factor * i.mass.shared(p));

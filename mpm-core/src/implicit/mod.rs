@@ -211,7 +211,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
         let elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
-        let average = Average::new(&elements, self.functions.len(), &particles.volume);
+        let sharp = self.settings.remedy == Remedy::FbarConsistent;
+        let average = Average::new(&elements, self.functions.len(), &particles.volume, sharp);
         (elements, average)
     }
 
@@ -240,7 +241,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         };
         let nodes = self.functions.len();
         let unknowns = Unknowns::new((nodes, self.functions.grid().h), &elements, &penalties, prescribed);
-        let averages = self.settings.remedy == Remedy::FbarConsistent;
+        let averages = self.settings.remedy != Remedy::None;
         let width = D + usize::from(averages);
         let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
         let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);

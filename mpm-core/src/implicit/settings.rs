@@ -32,7 +32,9 @@ pub const GHOST: f64 = 1e-3;
 pub enum Remedy {
     /// Standard MPM.
     None,
-    /// F̄ in variational form, with A = I − (1 − ε)(I − Π)².
+    /// F̄ in variational form, with A = Π.
+    Bbar,
+    /// The same with A = I − (1 − ε)(I − Π)².
     FbarConsistent,
 }
 

@@ -22,7 +22,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         settings.check()?;
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
-        let averages = settings.remedy == Remedy::FbarConsistent;
+        let averages = settings.remedy != Remedy::None;
         require(
             M::CONSERVATIVE || !averages,
             "variational F-bar with a law without a potential",

@@ -161,7 +161,7 @@ fn standing<const D: usize, M: Law>(cells: usize, places: Places, law: M, weight
 #[test]
 fn newton_converges_quadratically() {
     let settings = Settings { tolerance: 1e-11, ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)) };
-    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+    for remedy in [Remedy::None, Remedy::Bbar, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(4, Places::Uniform, NeoHookean::new(YOUNG, POISSON).unwrap(), 1e4);
         let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings.remedy(remedy)).unwrap();
         solver.step().unwrap();
@@ -256,7 +256,7 @@ fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+    for remedy in [Remedy::None, Remedy::Bbar, Remedy::FbarConsistent] {
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
             pool.build().unwrap().install(|| {

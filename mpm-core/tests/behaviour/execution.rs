@@ -2,7 +2,7 @@
 
 use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl, with_threads};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Solver, Transfer};
 use mpm_core::stage::{BodyForce, LocalDamping};
@@ -29,7 +29,7 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         let mut axes = [Axis::open(0.0, 12); D];
         axes[0] = Axis::periodic(0.0, 48);
         let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
-        settings.remedy = Box::new(FbarRate::default());
+        settings.remedy = Box::new(Fbar::new(Form::Rate));
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         solver.advance(60).unwrap();
         assert!(solver.work().sorts > 1, "the test must cover sorting");
@@ -128,7 +128,7 @@ where
 #[test]
 fn work_is_counted_exactly() {
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-    settings.remedy = Box::new(FbarRate::default());
+    settings.remedy = Box::new(Fbar::new(Form::Rate));
     let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
     solver.advance(10).unwrap();
     let w = solver.work();

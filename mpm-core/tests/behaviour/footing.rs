@@ -2,7 +2,7 @@
 
 use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::{Settings, Solver, contact_cfl};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::stage::{End, Wall, WallKind};
@@ -52,7 +52,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, Hencky
         .constrain(wall(0, End::Lo, WallKind::Roller))
         .constrain(wall(0, End::Hi, WallKind::Roller))
         .contact(RigidContact::new(face, barrier).with_friction(friction));
-    let settings = Settings::new(DT).remedy(Box::new(FbarRate::default()));
+    let settings = Settings::new(DT).remedy(Box::new(Fbar::new(Form::Rate)));
     (face, barrier, Solver::new(scene, settings).unwrap())
 }
 

@@ -3,7 +3,7 @@
 use crate::scenes::{DENSITY, block, remedies};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
-use mpm_core::explicit::remedy::{FbarRate, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
@@ -117,7 +117,7 @@ fn every_basis_remedy_and_transfer_goes_on_bit_for_bit() {
 fn every_law_goes_on_bit_for_bit() {
     fn of_law<M: Law + Copy + 'static>(name: &str, law: M) {
         goes_on(name, &|| {
-            let (scene, settings) = scene(law, Flip::default(), Box::new(FbarRate::default()), 6);
+            let (scene, settings) = scene(law, Flip::default(), Box::new(Fbar::new(Form::Rate)), 6);
             Box::new(Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap())
         });
     }
@@ -132,7 +132,7 @@ fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp, NeoHooke
 }
 
 fn saved() -> Saved {
-    let mut run = gimp(Box::new(FbarRate::default()), 6);
+    let mut run = gimp(Box::new(Fbar::new(Form::Rate)), 6);
     run.advance(25).unwrap();
     run.save().unwrap()
 }
@@ -143,7 +143,7 @@ fn refusal(mut run: impl Memory) -> MemoryError {
 
 #[test]
 fn the_memory_of_another_scene_is_refused() {
-    let rate = || Box::new(FbarRate::default());
+    let rate = || Box::new(Fbar::new(Form::Rate));
     let size = |what, saved, expected| MemoryError::Size { what, saved, expected };
     assert_eq!(refusal(gimp(rate(), 7)), size("id", 144, 168));
     assert_eq!(refusal(gimp(Box::new(Standard), 6)), size("j_bar", 144, 0));
@@ -174,7 +174,7 @@ fn the_memory_of_another_scene_is_refused() {
 fn a_damaged_memory_gives_no_panic() {
     let sound = saved();
     let restored = |bytes: Vec<u8>| {
-        let mut run = gimp(Box::new(FbarRate::default()), 6);
+        let mut run = gimp(Box::new(Fbar::new(Form::Rate)), 6);
         let outcome = run.restore(&Saved::from_bytes(bytes));
         if outcome.is_ok() {
             // The motion may well break down.

@@ -6,7 +6,7 @@ mod model;
 use fluid::{C, DENSITY, FLUID, scene};
 use model::{Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noise, product, theta};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::remedy::FbarConsistent;
+use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::{Remedy, Solver};
 use mpm_core::{Basis, Body, Particles, Simulation};
 use nalgebra::Complex;
@@ -348,7 +348,7 @@ fn noise_grows_as_documented() {
 #[test]
 fn a_stiffness_above_the_pressure_stills_the_noise() {
     let growth = |times: f64, speed: f64, steps| {
-        let remedy = FbarConsistent::new(0.0).holding(times, FLUID.bulk_modulus);
+        let remedy = Fbar::new(Form::Consistent).relaxing(0.0).holding(times, FLUID.bulk_modulus);
         growth_of_noise::<3, Gimp>(Box::new(remedy.unwrap()), -0.01, speed, steps)
     };
     let table = [(0.25, 0.0, 300, 3.63), (1.0, 0.0, 300, 1.02), (10.0, 0.0, 300, 0.89), (10.0, 0.1, 396, 0.84)];

@@ -1,6 +1,6 @@
 //! Bodies to try the solver on.
 
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Body, Grid, Particles, Scene};
@@ -49,10 +49,10 @@ pub(crate) fn scene_with<const D: usize, T>(
 pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
     vec![
         Box::new(Standard),
-        Box::new(FbarRecursive::default()),
-        Box::new(FbarTotal::default()),
-        Box::new(FbarRate::default()),
-        Box::new(FbarConsistent::default()),
+        Box::new(Fbar::new(Form::Recursive)),
+        Box::new(Fbar::new(Form::Total)),
+        Box::new(Fbar::new(Form::Rate)),
+        Box::new(Fbar::new(Form::Consistent)),
     ]
 }
 

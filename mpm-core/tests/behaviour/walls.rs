@@ -2,7 +2,7 @@
 
 use crate::scenes::{self, DENSITY};
 use mpm_core::basis::{CubicBSpline, Gimp, QuadraticBSpline};
-use mpm_core::explicit::remedy::FbarRate;
+use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::transfer::{Apic, Flip};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::material::NeoHookean;
@@ -27,7 +27,7 @@ fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> (Scene<2, N
     let walls = WALLS.map(|(axis, end)| Wall::new(axis, end, kind));
     let (scene, settings) = scenes::scene_with(grid, particles, transfer);
     let scene = scene.constrain_all(walls);
-    (scene, settings.remedy(Box::<FbarRate>::default()))
+    (scene, settings.remedy(Box::new(Fbar::new(Form::Rate))))
 }
 
 fn started<const S: usize, B: Basis<S>, T: Transfer<2>>(

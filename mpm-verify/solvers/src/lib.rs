@@ -4,6 +4,7 @@ pub mod scheme;
 pub mod trial;
 
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::remedy::{Form, Onto};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Serendipity};
@@ -257,10 +258,11 @@ fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {
         RemedyName::None => Ok(implicit::Remedy::None),
         RemedyName::FbarConsistent => Ok(implicit::Remedy::FbarConsistent),
-        RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => Err(Error::Input {
-            what: "place of the remedy, of an implicit run, in the list none, fbar-recursive, fbar-total, fbar-rate, fbar-consistent,",
-            value: f64::from(remedy as u8),
-            allowed: "none or fbar-consistent: the others' forces follow from no energy",
+        RemedyName::Other(Form::Bbar, Onto::Basis) => Ok(implicit::Remedy::Bbar),
+        other => Err(Error::Input {
+            what: "place in the list of remedies, of the one of an implicit run,",
+            value: RemedyName::NAMES.iter().take_while(|name| **name != other.text()).count() as f64,
+            allowed: "0, 4 or 5, none, fbar-consistent or bbar: implicit solvers have no other",
         }),
     }
 }

@@ -1,7 +1,7 @@
 //! Schemes by solver kind, and their names.
 
 use mpm_core::explicit::Remedy;
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Onto, Standard};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use thiserror::Error;
@@ -43,8 +43,7 @@ pub enum BasisName {
 }
 
 /// Locking remedies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum RemedyName {
     /// Standard MPM.
     None,
@@ -56,6 +55,8 @@ pub enum RemedyName {
     FbarRate,
     /// The average of the increment, and of the pressure in the force.
     FbarConsistent,
+    /// Another member of the family: its form, and the functions that average.
+    Other(Form, Onto),
 }
 
 /// Transfers.
@@ -90,13 +91,15 @@ impl RemedyName {
     /// The remedy.
     #[must_use]
     pub fn build<const D: usize>(self) -> Box<dyn Remedy<D>> {
-        match self {
-            Self::None => Box::new(Standard),
-            Self::FbarRecursive => Box::new(FbarRecursive::default()),
-            Self::FbarTotal => Box::new(FbarTotal::default()),
-            Self::FbarRate => Box::new(FbarRate::default()),
-            Self::FbarConsistent => Box::new(FbarConsistent::default()),
-        }
+        let (form, onto) = match self {
+            Self::None => return Box::new(Standard),
+            Self::FbarRecursive => (Form::Recursive, Onto::Basis),
+            Self::FbarTotal => (Form::Total, Onto::Basis),
+            Self::FbarRate => (Form::Rate, Onto::Basis),
+            Self::FbarConsistent => (Form::Consistent, Onto::Basis),
+            Self::Other(form, onto) => (form, onto),
+        };
+        Box::new(Fbar::new(form).onto(onto))
     }
 }
 
@@ -142,7 +145,18 @@ plain_text!(BasisName, "basis", [
 plain_text!(RemedyName, "remedy", [
     Self::None => "none", Self::FbarRecursive => "fbar-recursive",
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
-    Self::FbarConsistent => "fbar-consistent"]);
+    Self::FbarConsistent => "fbar-consistent",
+    Self::Other(Form::Bbar, Onto::Basis) => "bbar",
+    Self::Other(Form::Bbar, Onto::Hats) => "bbar-hats",
+    Self::Other(Form::Bbar, Onto::Cells) => "bbar-cells",
+    Self::Other(Form::Recursive, Onto::Hats) => "fbar-recursive-hats",
+    Self::Other(Form::Recursive, Onto::Cells) => "fbar-recursive-cells",
+    Self::Other(Form::Total, Onto::Hats) => "fbar-total-hats",
+    Self::Other(Form::Total, Onto::Cells) => "fbar-total-cells",
+    Self::Other(Form::Rate, Onto::Hats) => "fbar-rate-hats",
+    Self::Other(Form::Rate, Onto::Cells) => "fbar-rate-cells",
+    Self::Other(Form::Consistent, Onto::Hats) => "fbar-consistent-hats",
+    Self::Other(Form::Consistent, Onto::Cells) => "fbar-consistent-cells"]);
 plain_text!(TransferName, "transfer", [
     Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2",
     Self::Musl => "musl", Self::None => "none"]);
@@ -256,6 +270,15 @@ impl Scheme {
             Self::Explicit(e) => Self::explicit(basis, remedy, e.transfer),
             Self::Implicit(i) => Self::implicit(i.rule, basis, remedy),
             Self::Poro(p) => Self::poro(basis, p.space),
+        }
+    }
+
+    /// The scheme for which a case is made: `fbar-consistent` for another member of its family.
+    #[must_use]
+    pub const fn of_the_family(self) -> Self {
+        match self.remedy() {
+            RemedyName::Other(..) => self.with(self.basis(), RemedyName::FbarConsistent),
+            _ => self,
         }
     }
 

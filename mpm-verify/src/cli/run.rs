@@ -166,7 +166,7 @@ fn run_one(
     told: Told,
 ) -> Result<Record, Error> {
     let offered = case.schemes();
-    if !offered.contains(&spec.scheme) {
+    if !offered.contains(&spec.scheme.of_the_family()) {
         let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
         return Err(Error::unknown(
             &format!("scheme of {}", case.name),

@@ -26,6 +26,7 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
         (_, RemedyName::FbarTotal) => 2,
         (_, RemedyName::FbarRate) => 0,
         (_, RemedyName::FbarConsistent) => 3,
+        (_, RemedyName::Other(..)) => 7,
     };
     let marker = match scheme.basis() {
         BasisName::Gimp => Marker::Circle,

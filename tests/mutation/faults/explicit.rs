@@ -49,9 +49,9 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
     },
     Fault {
         name: "the printed algorithm no longer creeps",
-        file: "explicit/remedy/fbar_recursive.rs",
-        sound: "fill_with_products(&mut self.next, &particles.j_bar, change)",
-        broken: "self.next.clone_from(if change.is_empty() { change } else { &particles.jacobian })",
+        file: "explicit/remedy/fbar.rs",
+        sound: "fill_with_products(next, &particles.j_bar, change)",
+        broken: "next.clone_from(if change.is_empty() { change } else { &particles.jacobian })",
         seen_by: &[(RECURSIVE, "never-at-rest")],
     },
     Fault {
@@ -70,14 +70,14 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
     },
     Fault {
         name: "the increment of the volume is averaged twice",
-        file: "explicit/remedy/fbar_rate.rs",
-        sound: "average.average(particles, &mut self.averaged)",
-        broken: "for _ in 0..2 { average.average(particles, &mut self.averaged) }",
+        file: "explicit/remedy/fbar.rs",
+        sound: "Form::Rate | Form::Bbar => average.average(particles, averaged)",
+        broken: "Form::Rate | Form::Bbar => for _ in 0..2 { average.average(particles, averaged) }",
         seen_by: &[(BAR, "averaging-softens")],
     },
     Fault {
         name: "the consistent average lacks its second term",
-        file: "explicit/remedy/fbar_consistent.rs",
+        file: "explicit/remedy/fbar.rs",
         sound: "*field += (1.0 - UNSEEN) * *seen",
         broken: "*field += 0.0 * *seen",
         seen_by: &[(BAR_CONSISTENT, "averaging-softens")],

@@ -1,30 +1,15 @@
 //! Remedies for volumetric locking: how the averaged Jacobian J̄ is formed.
 //!
-//! The F̄ method replaces ΔF by ΔF̄ = (J̄ⁿ⁺¹ / (J̄ⁿ ΔJ))^(1/dim) ΔF, Eq. (25). The members of the
-//! family differ in J̄ⁿ⁺¹ alone:
-//!
-//! | remedy | J̄ⁿ⁺¹ | |
-//! |---|---|---|
-//! | [`Standard`] | J | standard MPM |
-//! | [`FbarRecursive`] | Π(J̄ⁿ ΔJ) | Algorithm 1 as printed, Eq. (26) |
-//! | [`FbarTotal`] | Π(Jⁿ⁺¹) | Eqs. (18)–(21), nothing accumulates |
-//! | [`FbarRate`] | J̄ⁿ Π(ΔJ) | only the increment is averaged |
-//! | [`FbarConsistent`] | J̄ⁿ A(ΔJ), relaxed | the force averages as the rate does: A = I − (1 − ε)(I − Π)² |
+//! The F̄ method replaces ΔF by ΔF̄ = (J̄ⁿ⁺¹ / (J̄ⁿ ΔJ))^(1/dim) ΔF, Eq. (25). [`Standard`] MPM has J̄ = J. Members of the
+//! family [`Fbar`] differ in the [`Form`] of J̄ⁿ⁺¹ and of the force, and in the functions that Π averages with.
 
-mod fbar_consistent;
-mod fbar_rate;
-mod fbar_recursive;
-mod fbar_total;
-mod standard;
+mod fbar;
 
-pub use fbar_consistent::FbarConsistent;
-pub use fbar_rate::FbarRate;
-pub use fbar_recursive::FbarRecursive;
-pub use fbar_total::FbarTotal;
-pub use standard::Standard;
+pub use crate::projection::Onto;
+pub use fbar::{Fbar, Form};
 
 use crate::eights::{Eights, blocks, numbers, store_numbers};
-use crate::memory::Memory;
+use crate::memory::{Memory, Memoryless};
 use crate::number::{Eight, Real};
 use crate::parallel::{CHUNK, Front, for_each_piece};
 use crate::particles::Particles;
@@ -151,14 +136,14 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
 pub trait Remedy<const D: usize>: Memory + Send {
     /// Gives the particles the columns that the remedy needs: J̄, if it averages.
     fn attach(&mut self, particles: &mut Particles<D>) {
-        if self.averages() {
+        if self.averages_onto().is_some() {
             particles.j_bar = particles.jacobian.clone();
         }
     }
 
-    /// Whether J̄ is something else than J: then it is formed between ΔF and the law.
-    fn averages(&self) -> bool {
-        true
+    /// The functions that J̄ is averaged with; of a remedy without them, J̄ is J.
+    fn averages_onto(&self) -> Option<Onto> {
+        Some(Onto::Basis)
     }
 
     /// Whether it averages more where there is shear.
@@ -179,6 +164,22 @@ pub trait Remedy<const D: usize>: Memory + Send {
         deformation: &Deformation<D>,
         average: &mut dyn Average<D>,
     ) -> Option<&[f64]>;
+}
+
+/// No remedy: ΔF̄ = ΔF, no averaged Jacobian is kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Standard;
+
+impl Memoryless for Standard {}
+
+impl<const D: usize> Remedy<D> for Standard {
+    fn averages_onto(&self) -> Option<Onto> {
+        None
+    }
+
+    fn next_j_bar(&mut self, _: &Particles<D>, _: &Deformation<D>, _: &mut dyn Average<D>) -> Option<&[f64]> {
+        None
+    }
 }
 
 /// Fills `out` with the products of two columns.

@@ -6,8 +6,7 @@ use crate::lattice::Lattice;
 use crate::material::{Law, NeoHookean};
 use crate::number::Lanes;
 use crate::order::stencil_order;
-use crate::projection::{Averaging, Projection};
-use crate::reach::Reach;
+use crate::projection::{Space, space};
 use crate::space::{determinant, determinant_of_entries, embed};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
@@ -20,20 +19,6 @@ struct Bench<const D: usize, const S: usize, B> {
     lattice: Lattice<D, S, B>,
     particles: Particles<D>,
     slabs: Vec<std::ops::Range<usize>>,
-    reach: Reach,
-}
-
-/// Π of a bench.
-macro_rules! averages {
-    ($bench:ident) => {
-        Projection {
-            lattice: &$bench.lattice,
-            slabs: &$bench.slabs,
-            reach: &$bench.reach,
-            averaging: &mut Averaging::new($bench.lattice.len()),
-            count: &mut 0,
-        }
-    };
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
@@ -41,12 +26,18 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
         let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
         let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
         particles.permute(&order);
-        Self { reach: Reach::of(&lattice, &particles.position, &particles.half_size), lattice, particles, slabs }
+        Self { lattice, particles, slabs }
     }
 
-    fn average(&self, field: &[f64]) -> Vec<f64> {
+    fn averages(&self, onto: Onto) -> Box<dyn Space<D>> {
+        let mut space = space::<D, S, B>(self.lattice.grid, WallTreatment::OpenKnot, Some(onto));
+        space.find_reach(&self.particles, &self.slabs);
+        space
+    }
+
+    fn average(&self, onto: Onto, field: &[f64]) -> Vec<f64> {
         let mut out = field.to_vec();
-        averages!(self).average(&self.particles, &mut out);
+        self.averages(onto).average(&self.particles, &mut out);
         out
     }
 }
@@ -55,7 +46,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
 fn deformation<const D: usize>(remedy: &dyn Remedy<D>, delta_f: &[SMatrix<f64, D, D>]) -> Deformation<D> {
     let n = delta_f.len();
     let mut deformation = Deformation::of(remedy, n);
-    if remedy.averages() {
+    if remedy.averages_onto().is_some() {
         let mut chunk = deformation.chunk();
         for k in 0..blocks(n) {
             let entries = matrix_entries(block(delta_f, k, &mut None));
@@ -91,25 +82,37 @@ fn scattered<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) -> (Bench<2, S, B
     (Bench::new(grid, particles), field)
 }
 
+/// All functions that Π averages with.
+const ONTO: [Onto; 3] = [Onto::Basis, Onto::Hats, Onto::Cells];
+
 fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
     let (bench, q) = scattered::<S, B>(places);
-    let ones = bench.average(&vec![1.0; places.len()]);
+    for onto in ONTO {
+        properties_of(onto, &bench, &q);
+    }
+}
+
+fn properties_of<const S: usize, B: Basis<S>>(onto: Onto, bench: &Bench<2, S, B>, q: &[f64]) {
+    let ones = bench.average(onto, &vec![1.0; q.len()]);
     assert!(ones.iter().all(|v| (v - 1.0).abs() < ROUNDING), "constants");
 
     // Symmetry: (r, V Π q) = (q, V Π r); positivity and contraction: 0 ≤ (q, VΠq) ≤ (q, Vq).
     let r: Vec<f64> = q.iter().map(|x| (7.0 * x).sin()).collect();
     let volume = &bench.particles.volume;
     let product = |a: &[f64], b: &[f64]| -> f64 { (0..a.len()).map(|p| volume[p] * a[p] * b[p]).sum() };
-    let (pq, pr) = (bench.average(&q), bench.average(&r));
-    let scale = product(&q, &q) + product(&r, &r) + 1.0;
-    let (small, qq) = (ROUNDING * scale, product(&q, &q));
+    let (pq, pr) = (bench.average(onto, q), bench.average(onto, &r));
+    let scale = product(q, q) + product(&r, &r) + 1.0;
+    let (small, qq) = (ROUNDING * scale, product(q, q));
     let near = |a: f64, b: f64, what: &str| assert!((a - b).abs() < small, "{what}: {a} {b}");
-    near(product(&r, &pq), product(&q, &pr), "symmetry");
-    assert!((-small..qq + small).contains(&product(&q, &pq)), "0 to 1");
+    near(product(&r, &pq), product(q, &pr), "symmetry");
+    assert!((-small..qq + small).contains(&product(q, &pq)), "0 to 1");
 
     // The volume integral of the field survives.
     let ones = vec![1.0; q.len()];
-    near(product(&ones, &pq), product(&ones, &q), "integral");
+    near(product(&ones, &pq), product(&ones, q), "integral");
+    if onto == Onto::Cells {
+        near(product(&pq, &pq), product(q, &pq), "a projection");
+    }
 }
 
 fn clouds() -> impl Strategy<Value = Vec<[f64; 4]>> {
@@ -139,7 +142,7 @@ fn spread<const S: usize, B: Basis<S>>(per_cell: usize) -> f64 {
     let bench = Bench::<1, S, B>::new(grid, particles);
     let places = bench.particles.position.iter();
     let squares: Vec<f64> = places.map(|x| x[0] * x[0]).collect();
-    let averaged = bench.average(&squares);
+    let averaged = bench.average(Onto::Basis, &squares);
     let middle = 10 * per_cell..11 * per_cell;
     let mean: f64 = middle.map(|p| averaged[p] - squares[p]).sum::<f64>() / per_cell as f64;
     mean / (h * h)
@@ -186,10 +189,10 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
             *j *= determinant(f);
         }
         let mut deformation = deformation(remedy, &raw);
-        let mut projection = averages!(bench);
-        let tried = remedy.next_j_bar(&particles, &deformation, &mut projection);
+        let mut projection = bench.averages(Onto::Basis);
+        let tried = remedy.next_j_bar(&particles, &deformation, projection.as_mut());
         let tried = tried.map(<[f64]>::to_vec);
-        if let Some(next) = remedy.next_j_bar(&particles, &deformation, &mut projection) {
+        if let Some(next) = remedy.next_j_bar(&particles, &deformation, projection.as_mut()) {
             assert_eq!(tried.as_deref(), Some(next), "a step tried again");
             averaged = take(&mut particles, &mut deformation, next);
         }
@@ -203,7 +206,7 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
 fn standard_changes_nothing_and_keeps_no_column() {
     let (_, bench, averaged) = small_body(&mut Standard, 2);
     assert!(bench.particles.j_bar.is_empty() && averaged.is_empty());
-    assert!(!Remedy::<2>::averages(&Standard));
+    assert!(Remedy::<2>::averages_onto(&Standard).is_none());
 }
 
 #[test]
@@ -214,15 +217,15 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
         let (second, _, _) = small_body(&mut Standard, 2);
         let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         match kind {
-            "recursive" => bench.average(&product(&bench.average(&first), &second)),
-            "total" => bench.average(&product(&first, &second)),
-            _ => product(&bench.average(&first), &bench.average(&second)),
+            "recursive" => bench.average(Onto::Basis, &product(&bench.average(Onto::Basis, &first), &second)),
+            "total" => bench.average(Onto::Basis, &product(&first, &second)),
+            _ => product(&bench.average(Onto::Basis, &first), &bench.average(Onto::Basis, &second)),
         }
     };
     let remedies: [(&str, Box<dyn Remedy<2>>); 3] = [
-        ("recursive", Box::new(FbarRecursive::default())),
-        ("total", Box::new(FbarTotal::default())),
-        ("rate", Box::new(FbarRate::default())),
+        ("recursive", Box::new(Fbar::new(Form::Recursive))),
+        ("total", Box::new(Fbar::new(Form::Total))),
+        ("rate", Box::new(Fbar::new(Form::Rate))),
     ];
     for (kind, mut remedy) in remedies {
         let (_, bench, _) = small_body(remedy.as_mut(), 2);
@@ -234,7 +237,7 @@ fn the_family_differs_in_the_averaged_jacobian_alone() {
 
 #[test]
 fn the_assumed_gradient_has_the_averaged_volume_and_the_given_shape() {
-    let mut remedy = FbarTotal::default();
+    let mut remedy = Fbar::new(Form::Total);
     let (_, bench, averaged) = small_body(&mut remedy, 1);
     for (p, assumed) in averaged.iter().enumerate() {
         assert!((determinant(assumed) - bench.particles.j_bar[p]).abs() < ROUNDING);
@@ -278,24 +281,27 @@ fn strained<const S: usize, B: Basis<S>>(
 /// stored energy Σ V⁰ W(F̄), whatever the velocities, the clouds and the parting of J̄ from J. The rate is
 /// a central difference over ±ε: its error is of order ε² of third derivatives plus rounding over ε.
 fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(places: &[[f64; 4]], carried: &[Carried]) {
-    // Pressures are up to a thousand; the second remedy keeps from a hundredth to all of what Π cannot see.
-    for times in [0.0, 10.0] {
-        power_of_remedy_is_the_rate_of_energy::<S, B>(times, places, carried);
+    // Pressures are up to a thousand; the last remedy keeps from a hundredth to all of what Π cannot see.
+    for onto in ONTO {
+        for (form, times) in [(Form::Bbar, 0.0), (Form::Consistent, 0.0), (Form::Consistent, 10.0)] {
+            let remedy = Fbar::new(form).onto(onto).relaxing(0.0).holding(times, 5e3).unwrap();
+            power_of_remedy_is_the_rate_of_energy::<S, B>(remedy, onto, places, carried);
+        }
     }
 }
 
 fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
-    times: f64,
+    mut remedy: Fbar,
+    onto: Onto,
     places: &[[f64; 4]],
     carried: &[Carried],
 ) {
     let law = NeoHookean::new(70.0, 0.49).unwrap();
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
-    let mut average = averages!(bench);
-    let mut remedy = FbarConsistent::new(0.0).holding(times, 5e3).unwrap();
+    let mut average = bench.averages(onto);
     let loaded = &bench.particles;
     let mut mean = Vec::new();
-    remedy.force_mean(loaded, &mut average, &mut mean);
+    remedy.force_mean(loaded, average.as_mut(), &mut mean);
     let (mut power, mut scale) = (0.0, 0.0);
     for (k, l) in gradients.iter().enumerate() {
         let ratio = loaded.j_bar[k] / loaded.jacobian[k];
@@ -314,7 +320,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
         let small = |l: &SMatrix<f64, 2, 2>| SMatrix::identity() + l * (sign * epsilon);
         let delta_f: Gradients = gradients.iter().map(small).collect();
         let mut deformation = deformation(&remedy, &delta_f);
-        let next = remedy.next_j_bar(&moved, &deformation, &mut average);
+        let next = remedy.next_j_bar(&moved, &deformation, average.as_mut());
         let next = next.unwrap().to_vec();
         let delta_f = take(&mut moved, &mut deformation, &next);
         let energy = |k: usize| law.energy(&law.update(&embed(&delta_f[k]), 1.0, &states[k]).1);
@@ -327,8 +333,8 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
 /// Strains are held against a pressure: without one no bit changes, and uniform growth has no unseen part.
 #[test]
 fn holding_does_nothing_without_pressure_or_disorder() {
-    let (_, plain, _) = small_body(&mut FbarConsistent::default(), 2);
-    let mut remedy = FbarConsistent::default().holding(10.0, 1.0).unwrap();
+    let (_, plain, _) = small_body(&mut Fbar::new(Form::Consistent), 2);
+    let mut remedy = Fbar::new(Form::Consistent).holding(10.0, 1.0).unwrap();
     let (_, held, _) = small_body(&mut remedy, 2);
     assert_eq!(plain.particles.j_bar, held.particles.j_bar);
 
@@ -336,12 +342,12 @@ fn holding_does_nothing_without_pressure_or_disorder() {
     let places: Vec<[f64; 4]> = (0..60).map(|k| [7.31, 3.77, 5.13, 1.91].map(|f| (f * f64::from(k)).fract())).collect();
     let moved: Vec<Carried> = (places.iter()).map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b])).collect();
     let (bench, _, _) = strained::<3, Gimp>(&law, &places, &moved);
-    let mut average = averages!(bench);
-    let mut remedy = FbarConsistent::default().holding(10.0, 5e3).unwrap();
-    remedy.force_mean(&bench.particles, &mut average, &mut Vec::new());
+    let mut average = bench.averages(Onto::Basis);
+    let mut remedy = Fbar::new(Form::Consistent).holding(10.0, 5e3).unwrap();
+    remedy.force_mean(&bench.particles, average.as_mut(), &mut Vec::new());
     let grown = vec![SMatrix::<f64, 2, 2>::identity() * 1.1; places.len()];
     let deformation = deformation(&remedy, &grown);
-    let next = remedy.next_j_bar(&bench.particles, &deformation, &mut average);
+    let next = remedy.next_j_bar(&bench.particles, &deformation, average.as_mut());
     for (next, before) in next.unwrap().iter().zip(&bench.particles.j_bar) {
         // The cloud's J̄ is rough, but nothing shears, so that nothing of it relaxes.
         assert!((next / before - 1.21).abs() < ROUNDING, "{next} {before}");
@@ -373,10 +379,10 @@ proptest! {
             // Without a change of volume, to first order and to second.
             let sheared = |l: &SMatrix<f64, 2, 2>| SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
             let delta_f: Gradients = gradients.iter().map(sheared).collect();
-            let mut average = averages!(bench);
-            let mut remedy = FbarConsistent::new(100.0);
+            let mut average = bench.averages(Onto::Basis);
+            let mut remedy = Fbar::new(Form::Consistent).relaxing(100.0);
             let deformation = deformation(&remedy, &delta_f);
-            let next = remedy.next_j_bar(&bench.particles, &deformation, &mut average);
+            let next = remedy.next_j_bar(&bench.particles, &deformation, average.as_mut());
             next.unwrap().to_vec()
         };
         let volume = &bench.particles.volume;

@@ -2,7 +2,7 @@
 
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Remedy;
-use mpm_core::explicit::remedy::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::{Axis, Basis};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
@@ -30,10 +30,10 @@ impl Kind {
     pub(super) fn remedy<const D: usize>(self) -> Box<dyn Remedy<D>> {
         match self {
             Self::None => Box::new(Standard),
-            Self::Recursive => Box::new(FbarRecursive::default()),
-            Self::Total => Box::new(FbarTotal::default()),
-            Self::Rate => Box::new(FbarRate::default()),
-            Self::Consistent => Box::new(FbarConsistent::new(0.0)),
+            Self::Recursive => Box::new(Fbar::new(Form::Recursive)),
+            Self::Total => Box::new(Fbar::new(Form::Total)),
+            Self::Rate => Box::new(Fbar::new(Form::Rate)),
+            Self::Consistent => Box::new(Fbar::new(Form::Consistent).relaxing(0.0)),
         }
     }
 }

@@ -5,7 +5,7 @@ use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG
 use crate::cases::prelude::*;
 use crate::exact::common::ANGULAR_FREQUENCY;
 use mpm_core::explicit::Remedy;
-use mpm_core::explicit::remedy::FbarConsistent as Consistent;
+use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::stage::BodyForce;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -214,7 +214,7 @@ fn solved<const D: usize, M: Solvable<D> + Solved<D>, P: ParameterSet>(
     let number = |p| setup.values.number(p);
     let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
         FbarConsistent => {
-            let remedy = Consistent::new(number(RELAXATION));
+            let remedy = Fbar::new(Form::Consistent).relaxing(number(RELAXATION));
             Box::new(remedy.holding(number(HOLD), scene.body.wave_modulus())?)
         }
         other => other.build(),

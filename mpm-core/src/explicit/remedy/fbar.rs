@@ -1,0 +1,213 @@
+//! The F̄ family: a form of J̄ⁿ⁺¹ and of the force, and the functions that Π averages with.
+
+use super::{Deformation, Remedy, fill, fill_with_products, mean};
+use crate::eights::{AHEAD, Eights};
+use crate::error::{Error, positive, require};
+use crate::memory::Memoryless;
+use crate::number::Eight;
+use crate::parallel::{CHUNK, for_each_piece};
+use crate::particles::Particles;
+use crate::projection::{Average, Onto};
+use crate::tensor::SymmetricTensor;
+
+/// How J̄ⁿ⁺¹ is formed, and with which pressure the force.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Form {
+    /// J̄ⁿ⁺¹ = Π(J̄ⁿ ΔJ): Algorithm 1 as printed, Eq. (26) of Zhao, Jiang & Choo (2023). What is averaged is averaged
+    /// again in every step, which diffuses J̄ with D = ½ s² h²/Δt, s² being the spread of Π: `docs/method.md`.
+    Recursive,
+    /// J̄ⁿ⁺¹ = Π(Jⁿ⁺¹), Eqs. (18)–(21): nothing accumulates.
+    Total,
+    /// J̄ⁿ⁺¹ = J̄ⁿ Π(ΔJ): only the increment is averaged. On constants of a cell that of Coombs et al. (2018).
+    Rate,
+    /// J̄ⁿ⁺¹ = J̄ⁿ A(ΔJ) with A = Π, and the force from the stress (J̄/J) dev σ + A((J̄/J) p) I: the B̄ method of Hughes
+    /// (1980) for large strains.
+    Bbar,
+    /// The same with A = I − (1 − ε)(I − Π)², ε = 0.01, less a relaxation of what Π cannot see.
+    ///
+    /// A is symmetric in the volume-weighted product, as Π is, so the power that the pressure takes from the grid is
+    /// the rate of the energy stored: `docs/remedy.md` derives it. It errs by the square of Π's error. Modes that Π
+    /// cannot see keep the share ε of their strain, a stiffness ε² K, so that a pressure does not feed them. It fills
+    /// as particles pass each other, and is emptied by J̄ ← J̄ − (I − Π) θ (I − Π) J̄ with θ = min(1, β γ) and γ the
+    /// shear strain of the step, which keeps the volume, never adds energy to first order, and does nothing at rest.
+    ///
+    /// A pressure above ε² K does feed it. [`Fbar::holding`] gives every particle an ε of its own, that the pressure
+    /// there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/disorder.md`).
+    Consistent,
+}
+
+/// A member of the family.
+#[derive(Debug, Clone)]
+pub struct Fbar {
+    form: Form,
+    onto: Onto,
+    /// β.
+    relaxation: f64,
+    /// How many times the smooth pressure ε² K holds at least, over K (1/Pa); zero for the same ε everywhere.
+    hold: f64,
+    /// ε of every particle in the step; empty where all have the same.
+    kept: Vec<f64>,
+    averaged: Vec<f64>,
+    next: Vec<f64>,
+    rest: Vec<f64>,
+}
+
+/// The relaxation β that serves every problem of the bench.
+const RELAXATION: f64 = 10.0;
+/// The share ε of a strain that Π cannot see which is kept. ε² K has to hold against the pressure of a body,
+/// 10⁻⁴ K is ten times that of two metres of water; from 0.1 on bodies lock (`docs/remedy.md`).
+const UNSEEN: f64 = 0.01;
+
+impl Fbar {
+    /// The member of this form on the basis functions.
+    #[must_use]
+    pub fn new(form: Form) -> Self {
+        let relaxation = if form == Form::Consistent { RELAXATION } else { 0.0 };
+        let [kept, averaged, next, rest] = [const { Vec::new() }; 4];
+        Self { form, onto: Onto::Basis, relaxation, hold: 0.0, kept, averaged, next, rest }
+    }
+
+    /// With other functions to average with.
+    #[must_use]
+    pub fn onto(self, onto: Onto) -> Self {
+        Self { onto, ..self }
+    }
+
+    /// With relaxation β (dimensionless, zero for none).
+    #[must_use]
+    pub fn relaxing(self, relaxation: f64) -> Self {
+        Self { relaxation, ..self }
+    }
+
+    /// With a stiffness ε² K of what Π cannot see that is at least `times` the smooth pressure Π p at every particle,
+    /// in a material of the modulus K = `modulus` (Pa); ε is at most one. Zero `times` for the same ε everywhere.
+    /// [`Form::Consistent`] has one.
+    ///
+    /// # Errors
+    /// `times` that are negative, a modulus that is not positive, or either not finite.
+    pub fn holding(mut self, times: f64, modulus: f64) -> Result<Self, Error> {
+        require(times >= 0.0, "pressures to hold", times, "zero or positive")?;
+        positive(modulus, "modulus", "positive (Pa)")?;
+        self.hold = times / modulus;
+        Ok(self)
+    }
+
+    /// Takes (I − Π) θ (I − Π) J̄ off the next J̄.
+    fn relax<const D: usize>(&mut self, particles: &Particles<D>, shear: &[f64], average: &mut dyn Average<D>) {
+        self.rest.clone_from(&self.next);
+        average.average(particles, &mut self.rest);
+        let relaxation = self.relaxation;
+        for_each_pair(&mut self.next, &mut self.rest, |p, next, rest| {
+            let theta = (relaxation * shear[p]).min(1.0);
+            *rest = theta * (*next - *rest);
+            *next -= *rest;
+        });
+        average.average(particles, &mut self.rest);
+        for_each_pair(&mut self.next, &mut self.rest, |_, next, smooth| {
+            *next += *smooth;
+        });
+    }
+}
+
+/// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that
+/// which every particle has `kept`, or the same of all.
+fn sharpened<const D: usize>(
+    particles: &Particles<D>,
+    average: &mut dyn Average<D>,
+    field: &mut [f64],
+    rest: &mut Vec<f64>,
+    kept: &[f64],
+) {
+    let kept = |p: usize| kept.get(p).copied().unwrap_or(UNSEEN);
+    rest.clear();
+    rest.extend_from_slice(field);
+    average.average(particles, rest);
+    for_each_pair(field, rest, |p, field, smooth| {
+        let rough = *field - *smooth;
+        *field = *smooth + kept(p) * rough;
+        // The factor is one, and changes no bit, where all have the same ε.
+        *smooth = rough * ((1.0 - kept(p)) / (1.0 - UNSEEN));
+    });
+    average.average(particles, rest);
+    for_each_pair(field, rest, |_, field, seen| {
+        *field += (1.0 - UNSEEN) * *seen;
+    });
+}
+
+/// `change(p, a, b)` for the entries of two fields at every particle p, in parallel.
+fn for_each_pair(a: &mut [f64], b: &mut [f64], change: impl Fn(usize, &mut f64, &mut f64) + Sync) {
+    let n = a.len();
+    for_each_piece((a, b), n, CHUNK, &|begin, (a, b)| {
+        for (k, (a, b)) in a.iter_mut().zip(b).enumerate() {
+            change(begin + k, a, b);
+        }
+    });
+}
+
+impl Memoryless for Fbar {}
+
+impl<const D: usize> Remedy<D> for Fbar {
+    fn averages_onto(&self) -> Option<Onto> {
+        Some(self.onto)
+    }
+
+    fn asks_for_shear(&self) -> bool {
+        self.relaxation > 0.0
+    }
+
+    fn force_mean(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>, of_force: &mut Vec<f64>) {
+        if !matches!(self.form, Form::Bbar | Form::Consistent) {
+            return;
+        }
+        fill(of_force, particles.len(), |chunk| {
+            let stress = Eights::of(&particles.stress[chunk.clone()]);
+            let j = Eights::of(&particles.jacobian[chunk.clone()]);
+            let j_bar = Eights::of(&particles.j_bar[chunk]);
+            move |k| {
+                stress.fetch(k + AHEAD);
+                let stress = stress.at(k);
+                let stress = SymmetricTensor::pack(|l| stress[l]);
+                Eight::new(*j_bar.at(k)) / Eight::new(*j.at(k)) * mean::<Eight, D>(&stress)
+            }
+        });
+        if self.form == Form::Bbar {
+            return average.average(particles, of_force);
+        }
+        if self.hold > 0.0 {
+            // The pressure that drives is the smooth one; noise of the true one would hold the more, the more there is.
+            self.kept.clone_from(of_force);
+            average.average(particles, &mut self.kept);
+            for kept in &mut self.kept {
+                *kept = (self.hold * kept.abs()).sqrt().clamp(UNSEEN, 1.0);
+            }
+        }
+        sharpened(particles, average, of_force, &mut self.rest, &self.kept);
+    }
+
+    fn next_j_bar(
+        &mut self,
+        particles: &Particles<D>,
+        deformation: &Deformation<D>,
+        average: &mut dyn Average<D>,
+    ) -> Option<&[f64]> {
+        let Self { form, averaged, next, rest, kept, .. } = self;
+        let change = &deformation.volume_change;
+        match form {
+            Form::Total => next.clone_from(&particles.jacobian),
+            Form::Recursive => fill_with_products(next, &particles.j_bar, change),
+            Form::Rate | Form::Bbar | Form::Consistent => averaged.clone_from(change),
+        }
+        match form {
+            Form::Total | Form::Recursive => average.average(particles, next),
+            Form::Rate | Form::Bbar => average.average(particles, averaged),
+            Form::Consistent => sharpened(particles, average, averaged, rest, kept),
+        }
+        if !matches!(form, Form::Total | Form::Recursive) {
+            fill_with_products(next, &particles.j_bar, averaged);
+        }
+        if self.relaxation > 0.0 {
+            self.relax(particles, &deformation.shear, average);
+        }
+        Some(&self.next)
+    }
+}
