@@ -76,9 +76,6 @@ impl<'a> Panel<'a> {
     }
 
     /// A curve for each run, of its `series.csv`: a line without markers in the style of its scheme.
-    ///
-    /// # Errors
-    /// A table is missing or damaged.
     pub(crate) fn histories(
         self,
         gallery: &Gallery,
@@ -89,9 +86,6 @@ impl<'a> Panel<'a> {
     }
 
     /// A curve for each run, of its `particles.csv`: a line with markers in the style of its scheme.
-    ///
-    /// # Errors
-    /// A table is missing or damaged.
     pub(crate) fn profiles(
         self,
         gallery: &Gallery,
@@ -329,9 +323,6 @@ impl<'a> Figure<'a> {
     }
 
     /// Draws the panels that have runs, writes their points and hangs the picture.
-    ///
-    /// # Errors
-    /// A file can't be written, or a reference has no place on a logarithmic axis.
     pub(crate) fn draw(self, gallery: &mut Gallery) -> Result<(), Error> {
         let all = self.panels.len();
         let charts = self.panels.into_iter().filter_map(Panel::chart);

@@ -268,9 +268,6 @@ pub struct Given {
 
 impl Given {
     /// The setup of the run that it is compared with.
-    ///
-    /// # Errors
-    /// A parameter of another type.
     pub(crate) fn setup<P: ParameterSet>(&self) -> Result<Setup<P>, Error> {
         Setup::of_spec(&self.spec, &self.parameters)
     }

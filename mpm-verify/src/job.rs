@@ -69,9 +69,6 @@ pub trait Job: Memory + Send {
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
     /// Runs to the next time of observation and returns that row of the series.
-    ///
-    /// # Errors
-    /// The computation broke down.
     fn advance(&mut self) -> Result<Row, mpm_core::Error>;
     /// Whether the run is complete.
     fn finished(&self) -> bool;

@@ -82,9 +82,6 @@ pub trait Problem<const D: usize>: Sized + Send {
     type Seen: Default + Serialize + DeserializeOwned + Send;
 
     /// The problem of a setup.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     fn new(setup: Setup<Self::Parameters>) -> Result<Self, Error>;
     /// Observations before the first row.
     fn unseen(&self) -> Self::Seen {
@@ -93,14 +90,8 @@ pub trait Problem<const D: usize>: Sized + Send {
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
     /// Initial simulation of the phase that `seen` records.
-    ///
-    /// # Errors
-    /// Parameters that make no scene.
     fn begin(&self, seen: &Self::Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
     /// Runs to the next time of observation, enters the next simulation if one is due, and returns the row of the series.
-    ///
-    /// # Errors
-    /// The computation broke down.
     fn row(&self, seen: &mut Self::Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error>;
     /// Share of the longest possible run that is done; at 1 the run is complete.
     fn progress(&self, seen: &Self::Seen, phase: &Phase<D>) -> f64;
@@ -236,9 +227,6 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// Runs to the next of `rows` equal intervals of `steps` steps, and observes.
-    ///
-    /// # Errors
-    /// The computation broke down.
     pub(crate) fn sample<const D: usize>(
         &mut self,
         phase: &mut Phase<D>,

@@ -2,19 +2,20 @@
 
 use crate::scenes::{block, open_grid, remedies, scene, scene_with, swirl, with_threads};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::remedy::{Fbar, Form};
+use mpm_core::explicit::remedy::{Fbar, Form, Onto};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Solver, Transfer};
 use mpm_core::stage::{BodyForce, LocalDamping};
 use mpm_core::{Axis, Basis, Grid, Simulation};
 
 fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
-    bits_of::<D, S, B, _>(threads, Flip::default())
+    bits_of::<D, S, B, _>(threads, Flip::default(), Onto::Basis)
 }
 
 fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>>(
     threads: usize,
     transfer: T,
+    onto: Onto,
 ) -> Vec<u64> {
     with_threads(threads, || {
         let mut lo = [4; D];
@@ -29,7 +30,7 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         let mut axes = [Axis::open(0.0, 12); D];
         axes[0] = Axis::periodic(0.0, 48);
         let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
-        settings.remedy = Box::new(Fbar::new(Form::Rate));
+        settings.remedy = Box::new(Fbar::new(Form::Bbar).onto(onto));
         let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
         solver.advance(60).unwrap();
         assert!(solver.work().sorts > 1, "the test must cover sorting");
@@ -52,11 +53,11 @@ fn results_are_bitwise_the_same_for_any_number_of_threads() {
     assert_eq!(bits::<2, 4, CubicBSpline>(1), bits::<2, 4, CubicBSpline>(4));
     assert_eq!(bits::<3, 3, QuadraticBSpline>(1), bits::<3, 3, QuadraticBSpline>(4));
     assert_eq!(bits::<1, 2, Linear>(1), bits::<1, 2, Linear>(4));
-    let apic = |threads| bits_of::<2, 3, QuadraticBSpline, _>(threads, Apic);
+    let apic = |threads| bits_of::<2, 3, QuadraticBSpline, _>(threads, Apic, Onto::Hats);
     assert_eq!(apic(1), apic(4));
-    let xpic = |threads| bits_of::<2, 3, Gimp, _>(threads, Xpic::new(3).unwrap());
+    let xpic = |threads| bits_of::<2, 3, Gimp, _>(threads, Xpic::new(3).unwrap(), Onto::Cells);
     assert_eq!(xpic(1), xpic(4));
-    let musl = |threads| bits_of::<2, 2, Linear, _>(threads, Musl::default());
+    let musl = |threads| bits_of::<2, 2, Linear, _>(threads, Musl::default(), Onto::Cells);
     assert_eq!(musl(1), musl(4));
 }
 

@@ -1,6 +1,6 @@
 //! Bodies to try the solver on.
 
-use mpm_core::explicit::remedy::{Fbar, Form, Standard};
+use mpm_core::explicit::remedy::{Fbar, Form, Onto, Standard};
 use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Body, Grid, Particles, Scene};
@@ -53,6 +53,8 @@ pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
         Box::new(Fbar::new(Form::Total)),
         Box::new(Fbar::new(Form::Rate)),
         Box::new(Fbar::new(Form::Consistent)),
+        Box::new(Fbar::new(Form::Bbar).onto(Onto::Cells)),
+        Box::new(Fbar::new(Form::Consistent).onto(Onto::Hats)),
     ]
 }
 

@@ -15,9 +15,6 @@ pub(super) trait Analysis: Sized + Send {
     type Found: Serialize + DeserializeOwned + Send;
 
     /// The analysis of a setup.
-    ///
-    /// # Errors
-    /// Parameters or a scheme that make no scene.
     fn new(setup: Setup<Self::Parameters>) -> Result<Self, Error>;
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;

@@ -16,9 +16,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// Particles at these places (m), `spacing` (m) apart, of a density (kg/m³).
-    ///
-    /// # Errors
-    /// No particles, or a number out of range.
     pub(super) fn particles_at<const D: usize>(
         &self,
         places: impl IntoIterator<Item = [f64; D]>,
@@ -30,9 +27,6 @@ impl<P: ParameterSet> Setup<P> {
 
     /// The explicit solver of a scene, in steps of `dt` (s), with a factor of local damping, and the share of FLIP that the
     /// parameter `flip` sets.
-    ///
-    /// # Errors
-    /// Another scheme; a parameter out of range.
     pub(super) fn explicit<const D: usize, M: Solvable<D>>(
         &self,
         scene: Scene<D, M>,
@@ -46,9 +40,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// The solver of a scheme of bodies that move, explicit or implicit: see [`Self::explicit`].
-    ///
-    /// # Errors
-    /// Another scheme; a parameter out of range.
     pub(super) fn moving<const D: usize, M: Solvable<D> + Solved<D>>(
         &self,
         scene: Scene<D, M>,

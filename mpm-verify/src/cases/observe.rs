@@ -14,9 +14,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// Wall treatment and remedy of an explicit run that takes steps of `dt` (s), and local damping if there is any.
-    ///
-    /// # Errors
-    /// A damping factor out of range.
     pub(super) fn settings<const D: usize>(&self, dt: f64, damping: f64) -> Result<Settings<D>, mpm_core::Error> {
         let settings = Settings::new(dt).wall(self.wall_treatment()).remedy(self.remedy().build());
         match damping > 0.0 {
@@ -100,9 +97,6 @@ impl<P: ParameterSet> Setup<P> {
 }
 
 /// Whether steps have ended well: a static one that has found no equilibrium leaves the body as it was.
-///
-/// # Errors
-/// It failed for another reason.
 pub(super) fn finds_equilibrium(step: Result<(), mpm_core::Error>) -> Result<bool, mpm_core::Error> {
     use mpm_core::Error::{Breakdown, NoConvergence, Singular};
     match step {

@@ -117,9 +117,6 @@ impl Fields {
     }
 
     /// Draws and hangs the picture `NAME.png`, if there is a panel.
-    ///
-    /// # Errors
-    /// The file can't be written.
     pub(super) fn draw(self, gallery: &mut Gallery, name: &str, caption: impl Into<String>) -> Result<(), Error> {
         if self.0.panels.is_empty() {
             return Ok(());

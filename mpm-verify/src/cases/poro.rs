@@ -22,9 +22,6 @@ pub(super) const PER_CELL: usize = 2;
 const ROOM: usize = 2;
 
 /// A column on a sealed floor.
-///
-/// # Errors
-/// Cells that make no grid.
 pub(super) fn column<P: ParameterSet, L: Law>(setup: &Setup<P>, law: L) -> Result<Scene<1, L>, mpm_core::Error> {
     let (h, cells) = (setup.h, (HEIGHT / setup.h).round() as usize);
     let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));

@@ -119,9 +119,6 @@ impl Command {
     }
 
     /// Executes the command.
-    ///
-    /// # Errors
-    /// Those of the command.
     pub(crate) fn execute(self) -> Result<ExitCode, Error> {
         match self {
             Self::List(command) => command.execute(),

@@ -121,9 +121,6 @@ impl Making {
     }
 
     /// Makes `spec` of `case` in a folder, if there is one.
-    ///
-    /// # Errors
-    /// Those of [`run_one`].
     pub(super) fn make(&self, case: &Case, spec: &RunSpec, folder: Option<&Path>) -> Result<Record, Error> {
         let saving = saving(self.checkpoint_every, self.resume.is_some());
         let memory = self.memory.map(|gib| gib * GIBIBYTE).or_else(available_memory);

@@ -80,9 +80,6 @@ fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
 }
 
 /// Writes a PNG file as small as it gets.
-///
-/// # Errors
-/// It can't be written.
 pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> {
     let mut bytes = Vec::new();
     let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);

@@ -25,9 +25,6 @@ struct Row {
 
 /// Adds a night of a case to the history in `out` (replacing that case's rows if the night is there
 /// already).
-///
-/// # Errors
-/// The history is damaged, or a file can't be written.
 pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<(), Error> {
     let path = out.join(FILE);
     let mut rows = read(&path)?;
@@ -38,9 +35,6 @@ pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<(), Er
 }
 
 /// Takes the nights of the history in `from` into that in `into`, case by case; other nights stay.
-///
-/// # Errors
-/// Either history is damaged, or the file can't be written.
 pub(super) fn merge(from: &Path, into: &Path) -> Result<(), Error> {
     let (from, path) = (read(&from.join(FILE))?, into.join(FILE));
     let told: BTreeSet<(Date, &str)> = from.iter().map(|r| (r.night, &*r.case)).collect();

@@ -132,9 +132,6 @@ const OWN: &str = ".mpm-verify";
 const CLAIM: &str = "mpm-verify writes and removes the pages, pictures and tables of this folder.\n";
 
 /// Draws and writes into `out`, in place of what this program wrote there before, and keeps account of it.
-///
-/// # Errors
-/// Those of [`discard_report`] and of `write`.
 fn owning<T>(out: &Path, write: impl FnOnce() -> Result<T, Error>) -> Result<T, Error> {
     discard_report(out)?;
     write_whole(&out.join(OWN), CLAIM.as_bytes())?;

@@ -52,9 +52,6 @@ fn panel<'a>(records: &'a [Record], problem: &Problem) -> Option<Panel<'a>> {
 }
 
 /// Draws it, if there are such runs.
-///
-/// # Errors
-/// The picture can't be written.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let panels = PROBLEMS.iter().filter_map(|problem| panel(gallery.records, problem));
     Figure::new("solvers", "", panels).columns(2).whole().draw(gallery)

@@ -9,9 +9,6 @@ use crate::metric::Metric;
 
 /// Writes `summary.md` into `out`: what failed and drifted, tables over all cases, and of each case the orders of what its
 /// table of results shows, at the parameters that have the most levels.
-///
-/// # Errors
-/// A case that is not known.
 pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), Error> {
     let mut document = Document::new(format!("Verification, tier {}", summary.tier));
     document.paragraph(lines(&summary.counts.to_string(), 4));
@@ -33,9 +30,6 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
 }
 
 /// The same of rows that are kept, of any night; `nights` says of which.
-///
-/// # Errors
-/// A case that is not known.
 pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String, Error> {
     let summary = Summary::new("", studies);
     let mut document = Document::new("Verification, all kept runs");

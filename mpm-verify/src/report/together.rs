@@ -62,9 +62,6 @@ impl Pictures {
 }
 
 /// Draws them, each if there are runs for all of its panels.
-///
-/// # Errors
-/// A picture can't be written.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let Pictures { schemes, picture } = Pictures::read()?;
     for PictureOf { name, panel } in picture {

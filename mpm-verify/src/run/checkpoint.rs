@@ -188,9 +188,6 @@ impl Checkpoint {
     }
 
     /// Writes it, whole or not at all.
-    ///
-    /// # Errors
-    /// The file can't be written.
     fn write(&self, folder: &Path, identity: &Identity) -> Result<(), Error> {
         let path = folder.join(FILE);
         let json = serde_json::to_string(identity).map_err(|e| Error::file(&path, e))?;

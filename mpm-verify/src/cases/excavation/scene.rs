@@ -73,8 +73,6 @@ impl Setup<Excavation> {
         self.unit_weight / GRAVITATION
     }
 
-    /// # Errors
-    /// A residual strength above the peak.
     fn strength(&self) -> Result<Strength, mpm_core::Error> {
         let [peak, residual, slope] = [self.peak, self.residual, self.softening].map(|c| SQRT_2 * c);
         Strength::softening_linearly(peak, residual, slope)

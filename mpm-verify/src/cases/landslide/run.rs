@@ -74,9 +74,6 @@ impl Seen {
 
 impl Setup<Landslide> {
     /// Width (m) in three dimensions.
-    ///
-    /// # Errors
-    /// It is not a whole number of cells.
     fn whole_width(&self) -> Result<f64, Error> {
         let (h, given) = (self.h, self.width);
         let width = match self.level.starts_with("slice") {

@@ -72,9 +72,6 @@ impl Material {
 
 impl Source {
     /// Form of the text, with its strengths divided.
-    ///
-    /// # Errors
-    /// Those of [`Self::parse`]; a law without a strength, whose strength is to be divided.
     pub(super) fn form(&self) -> Result<Form, Error> {
         let mut form: Form = self.parse()?;
         if self.weaker != 1.0 {

@@ -32,9 +32,6 @@ pub(super) struct Setup<const D: usize> {
 
 impl<const D: usize> Setup<D> {
     /// Set-up of the scene in a file.
-    ///
-    /// # Errors
-    /// The form is not a valid scene: the error names line and key.
     pub(super) fn new(source: &Source, form: Form) -> Result<Self, Error> {
         let grid = grid(source, &form)?;
         let scheme = scheme(source, &form)?;
@@ -268,9 +265,6 @@ impl<const D: usize> Setup<D> {
     }
 
     /// The water in a body of these particles.
-    ///
-    /// # Errors
-    /// The file has none.
     pub(super) fn water(&self, particles: &Particles<D>) -> Result<Water<D>, mpm_core::Error> {
         let form = self.form.water.as_ref().ok_or(mpm_core::Error::Input {
             what: "tables `water`",
