@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """The chart of docs/averages.md: forms of F̄ by the functions that average, over problems of the bench.
 
-usage: averages.py PROGRAM RESULTS.json [PICTURE.svg]
+usage: averages.py PROGRAM RESULTS.json
 
-Makes the runs that RESULTS.json lacks, two at a time, prints the tables and draws the picture. All runs take about 40
-minutes on two cores. Price: the least of three runs on one thread, which nothing else may disturb.
+Makes the runs that RESULTS.json lacks, two at a time, and prints the tables. All runs take about 40 minutes on two cores.
+Price: the least of three runs on one thread, which nothing else may disturb.
 """
 
 import concurrent.futures
@@ -32,28 +32,27 @@ RUNS = {
     "price": ["mms-axis", "n64"],
 }
 PRICE = ["price 1", "price 2", "price 3"]
-# Heading in two lines, run, metric, factor, digits, the exact value, and the error below which all are alike.
+# Heading in two lines, run, metric, factor, format, the exact value, and the error below which all are alike.
 COLUMNS = [
-    ("price", "/none", "price", None, 1, 2, 0, 0),
-    ("Cook h1", "u (%)", "cook", "fem_mid_edge_error", 100, 2, 0, 0.1),
-    ("", "σ_m (mPa)", "cook", "mean_stress_rms_error", 1e3, 1, 0, 0),
-    ("", "noise", "cook", "checkerboard_ratio", 1, 3, 0, 0),
-    ("ν→½", "noise", "cook, ν = 0.499999", "checkerboard_ratio", 1, 2, 0, 0),
-    ("footing", "N_c", "footing", "nc_effective", 1, 2, 5.14, 0.05),
-    ("", "noise", "footing", "checkerboard_ratio", 1, 3, 0, 0),
-    ("dam h¼", "front (m)", "dam", "front_rms_error", 1, 3, 0, 0),
-    ("", "(kPa)", "dam", "checkerboard_rms", 1e-3, 2, 0, 0),
-    ("vortex 32", "u (mm)", "vortex", "displacement_l2", 1e3, 3, 0, 0),
-    ("", "σ_m (Pa)", "vortex", "mean_stress_l2", 1, 0, 0, 0),
-    ("axis 64", "u (µm)", "axis", "displacement_l2", 1e6, 2, 0, 0),
-    ("swirl 16", "u (mm)", "swirl", "displacement_l2", 1e3, 3, 0, 0),
-    ("", "σ_m (Pa)", "swirl", "mean_stress_l2", 1, 1, 0, 0),
-    ("column", "(µJ/m)", "column", "kinetic_energy_peak", 1e6, 3, 0, 0.01),
-    ("wave 8", "lost (s)", "wave", "end", 1, 1, 24, 0),
+    ("price", "/none", "price", None, 1, ".2f", 0, 0),
+    ("Cook h1", "u (%)", "cook", "fem_mid_edge_error", 100, ".2f", 0, 0.1),
+    ("", "σ_m mPa", "cook", "mean_stress_rms_error", 1e3, ".1f", 0, 0),
+    ("", "noise", "cook", "checkerboard_ratio", 1, ".3f", 0, 0.05),
+    ("ν→½", "noise", "cook, ν = 0.499999", "checkerboard_ratio", 1, ".2f", 0, 0.05),
+    ("footing", "N_c", "footing", "nc_effective", 1, ".2f", 5.14, 0.05),
+    ("", "noise", "footing", "checkerboard_ratio", 1, ".3f", 0, 0.05),
+    ("dam h¼", "front (m)", "dam", "front_rms_error", 1, ".3f", 0, 0),
+    ("", "p (kPa)", "dam", "checkerboard_rms", 1e-3, ".2f", 0, 1),
+    ("vortex 32", "u mm", "vortex", "displacement_l2", 1e3, ".3f", 0, 0),
+    ("", "σ_m Pa", "vortex", "mean_stress_l2", 1, ".0f", 0, 0),
+    ("axis 64", "u (µm)", "axis", "displacement_l2", 1e6, ".2f", 0, 0),
+    ("swirl 16", "u (mm)", "swirl", "displacement_l2", 1e3, ".3f", 0, 0),
+    ("", "σ_m Pa", "swirl", "mean_stress_l2", 1, ".1f", 0, 0),
+    ("column", "(J/m)", "column", "kinetic_energy_peak", 1, ".0e", 0, 1e-4),
+    ("wave 8", "lost (s)", "wave", "end", 1, ".1f", 24, 12),
 ]
-# Colours of a cell, from the ratio of its error to the least of the column up.
-COLOURS = [(1.2, "#fff"), (2, "#fee8c8"), (4, "#fdbb84"), (16, "#ef6548"), (math.inf, "#b30000")]
-WIDTH, HEIGHT, NAME = 58, 15, 140
+# Ratio of an error to the least of its column up to which it is as good.
+BEST = 1.2
 
 
 def make(program, basis, remedy, run):
@@ -87,69 +86,43 @@ def complete(program, file):
 
 
 def value(results, basis, remedy, column):
-    """The number of a column, or None where there is none."""
+    """The number of a column; NaN without one."""
     run, name, factor = column[2:5]
     if run == "price":
         cpu = [min(results[f"{basis} | {of} | {run}"]["time"]["cpu_s"] for run in PRICE) for of in (remedy, "none")]
         return cpu[0] / cpu[1]
     record = results[f"{basis} | {remedy} | {run}"]
     if name == "end":
-        return record.get("error", {}).get("time", 24.0)
-    found = record["metrics"].get(name, {}).get("value")
-    return None if found is None or record["status"] != "ok" else factor * found
+        return (record.get("error") or {}).get("time", 24.0)
+    found = record["metrics"].get(name, {}).get("value", math.nan)
+    return factor * found if record["status"] == "ok" else math.nan
 
 
 def table(results, basis):
-    """Texts of the cells with their colours, by remedy."""
-    rows = {remedy: [value(results, basis, remedy, column) for column in COLUMNS] for remedy in REMEDIES}
+    """Texts of the cells by remedy; the best of a column are bold, a dash breaks down, what no case offers is empty."""
     cells = {remedy: [] for remedy in REMEDIES}
-    for k, (*_, digits, exact, alike) in enumerate(COLUMNS):
-        errors = {remedy: abs(row[k] - exact) + alike for remedy, row in rows.items() if row[k] is not None}
-        least = max(min(errors.values()), 1e-9)
-        for remedy, row in rows.items():
-            text = "–" if row[k] is None else f"{row[k]:.{digits}f}"
-            ratio = errors.get(remedy, math.inf) / least
-            cells[remedy].append((text, next(colour for most, colour in COLOURS if ratio <= most)))
+    for column in COLUMNS:
+        *_, form, exact, alike = column
+        of = {remedy: value(results, basis, remedy, column) for remedy in REMEDIES}
+        errors = {remedy: abs(number - exact) + alike for remedy, number in of.items() if not math.isnan(number)}
+        for remedy, number in of.items():
+            offered = column[2] == "price" or results[f"{basis} | {remedy} | {column[2]}"]["status"] != "refused"
+            text = "–" if offered else ""
+            if remedy in errors:
+                text = format(number, form)
+                text = f"**{text}**" if errors[remedy] <= BEST * max(min(errors.values()), 1e-9) else text
+            cells[remedy].append(text)
     return cells
 
 
-def draw(results):
-    """The tables as a picture: paths of one colour, and a line of text a row."""
-    height = HEIGHT * (len(BASES) * (len(REMEDIES) + 3) + 1)
-    paths, texts, y = {}, [], HEIGHT
-
-    def line(name, cells, y, weight="normal"):
-        xs = [NAME + WIDTH * (k + 1) - 6 for k in range(len(cells))]
-        spans = "".join(f'<tspan x="{x}" text-anchor="end">{cell}</tspan>' for x, cell in zip(xs, cells) if cell)
-        texts.append(f'<text y="{y}" font-weight="{weight}"><tspan x="4">{name}</tspan>{spans}</text>')
-
-    for basis, title in BASES.items():
-        line(title, [column[0] for column in COLUMNS], y, "bold")
-        line("", [column[1] for column in COLUMNS], y + HEIGHT, "bold")
-        y += 2 * HEIGHT
-        for remedy, cells in table(results, basis).items():
-            for k, (_, colour) in enumerate(cells):
-                box = f"M{NAME + WIDTH * k} {y - 11}h{WIDTH}v{HEIGHT}h-{WIDTH}z"
-                paths.setdefault(colour, []).append(box)
-            line(remedy, [text for text, _ in cells], y)
-            y += HEIGHT
-        y += HEIGHT
-    size = f"{NAME + WIDTH * len(COLUMNS) + 4} {height}"
-    boxes = "".join(f'<path fill="{colour}" d="{"".join(boxes)}"/>' for colour, boxes in paths.items())
-    style = 'font-family="DejaVu Sans, Arial, sans-serif" font-size="10"'
-    return f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size}" {style}>{boxes}{"".join(texts)}</svg>'
-
-
 def main():
-    program, file, *picture = sys.argv[1:]
+    program, file = sys.argv[1:]
     results = complete(program, pathlib.Path(file))
     for basis, title in BASES.items():
         heads = [" ".join(column[:2]).strip() for column in COLUMNS]
         print(f"\n{title}:\n\n| average | {' | '.join(heads)} |\n|---{'|---' * len(COLUMNS)}|")
-        for remedy, cells in table(results, basis).items():
-            print(f"| `{remedy}` | {' | '.join(text for text, _ in cells)} |")
-    for path in picture:
-        pathlib.Path(path).write_text(draw(results))
+        for remedy, texts in table(results, basis).items():
+            print(f"| `{remedy}` | {' | '.join(texts)} |")
 
 
 if __name__ == "__main__":

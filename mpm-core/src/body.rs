@@ -137,9 +137,6 @@ impl<const D: usize, M: Law> Body<D, M> {
 
     /// Goes on with the body of another run, of which it has the particles that were seeded first; `check` is asked
     /// before that. See [`Simulation::take_over`](crate::Simulation::take_over).
-    ///
-    /// # Errors
-    /// As [`restore`](Self::restore).
     pub(crate) fn go_on_with(
         &mut self,
         saved: &Saved,

@@ -90,9 +90,6 @@ impl<const D: usize, M: Law> Scene<D, M> {
     }
 
     /// Bytes for the next run: the body, and the sticks of the contacts.
-    ///
-    /// # Errors
-    /// A value that has no bytes.
     pub(crate) fn hand_over(&self, body: Saved) -> Result<Saved, MemoryError> {
         let sticks = self.contacts.iter().map(|c| c.sticks().as_flattened());
         Saved::of(&(body, sticks.collect::<Vec<_>>()))

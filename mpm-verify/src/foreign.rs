@@ -298,9 +298,6 @@ impl Given {
     }
 
     /// Checks that the rows of the series, which stand in these lines of its file, rise along their abscissa.
-    ///
-    /// # Errors
-    /// A row does not: the error names its line.
     pub(crate) fn require_order(&self, abscissa: &Asked, lines: &[u64]) -> Result<(), Error> {
         let column = self.column(abscissa);
         let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
@@ -327,9 +324,6 @@ impl Given {
 
     /// The places in the table of the particles that start at `seeded` (m), where parts of the size `spacing` (m) along
     /// the axes have one each.
-    ///
-    /// # Errors
-    /// Others start, or in other places.
     pub(crate) fn in_order(&self, start: [&Asked; 2], seeded: &[[f64; 2]], spacing: f64) -> Result<Vec<usize>, Error> {
         let part = |x: &[f64; 2]| x.map(|x| (x / spacing).floor() as i64);
         let given = self.points(start);

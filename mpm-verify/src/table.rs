@@ -92,9 +92,6 @@ impl Table {
     }
 
     /// Checks its names and numbers, of what is called so.
-    ///
-    /// # Errors
-    /// A name is there twice, or a number is NaN or infinite.
     pub(crate) fn require_finite(&self, column: &str, row: &str) -> Result<(), String> {
         let mut known = std::collections::HashSet::new();
         for (name, values) in self.iter() {

@@ -22,11 +22,9 @@ fn short(more: &[&str]) -> Output {
 #[test]
 fn a_verification_that_memory_cannot_hold_leaves_nothing() {
     let root = tempfile::tempdir().unwrap();
-    let out = root.path().join("out");
-    let verify = ["verify", "terzaghi", "--tier", "quick", "--memory", "1e-6"];
-    let output = mpm_verify(&[&verify[..], &["--out", text(&out)]].concat());
-    let said = "terzaghi/poro-gimp-two-grid/n10: the scene is larger than";
-    refused(&output, said, root.path(), &Files::new());
+    let verify = ["verify", "terzaghi", "--tier", "quick", "--memory", "1e-6", "--out"];
+    let output = mpm_verify(&[&verify[..], &[text(&root.path().join("out"))]].concat());
+    refused(&output, "terzaghi/poro-gimp-two-grid/n10: the scene is larger than", root.path(), &Files::new());
 }
 
 /// Refused by one line that says why, and nothing has changed below `root`.
@@ -103,6 +101,10 @@ fn a_report_removes_what_it_wrote_and_refuses_what_is_in_its_way() {
     assert_eq!(code(&scene.report()), 0);
     assert_eq!(fs::read_to_string(&below).unwrap(), "mine");
     fs::write(&mine, "mine").unwrap();
+    let own = tempfile::tempdir().unwrap();
+    fs::write(own.path().join("particles.csv"), "mine").unwrap();
+    let before = files(own.path());
+    refused(&short(&["--out", text(own.path())]), "particles.csv: in the way", own.path(), &before);
     let before = files(&scene.report);
     refused(&scene.report(), "mine.csv: in the way", &scene.report, &before);
 

@@ -95,7 +95,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     nodes: Vec<NodalState>,
     /// The acceleration of all material in the step (m/s²).
     gravity: Node,
-    /// What the remedy averages with.
+    /// The functions that the remedy averages with.
     space: Box<dyn Space<D>>,
     /// The nodes that particles see until they are sorted again; all others are zero.
     reach: Reach,

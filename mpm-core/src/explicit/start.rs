@@ -13,7 +13,7 @@ use crate::projection::space;
 use crate::reach::Reach;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::stage::Prescribed;
+use crate::stage::{Prescribed, require_held};
 
 impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
     /// A solver of `scene` with `settings` at time zero.
@@ -67,6 +67,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
         solver.check_positions()?;
         solver.attach_contacts()?;
         solver.declare_constraints();
+        require_held(solver.scene.constraints.len(), solver.declared.iter().map(|held| held.by))?;
         solver.sort();
         solver.keep_gaps_open(0.0)?;
         Ok(solver)

@@ -68,9 +68,6 @@ impl<const D: usize> Obstacle<D> {
     }
 
     /// −B′ (N) and B″ (N/m) at a place.
-    ///
-    /// # Errors
-    /// The gap is closed.
     fn normal(&self, x: &SVector<f64, D>) -> Result<Option<[f64; 2]>, Fault> {
         match self.gap(x) {
             Some(gap) if gap <= 0.0 => Err(Fault::GapClosed(gap)),

@@ -4,7 +4,7 @@ use super::interpolation::Interpolation;
 use crate::error::{Error, require};
 use crate::material::Law;
 use crate::scene::Scene;
-use crate::stage::{Bound, Constraint};
+use crate::stage::{Bound, Constraint, require_held};
 
 /// A component of a node that a constraint holds.
 #[derive(Debug, Clone, Copy)]
@@ -28,10 +28,13 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
 }
 
 /// Constraint of every component of every node: the first of the scene's constraints that holds it.
+///
+/// # Errors
+/// A constraint holds nothing.
 pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
     functions: &I,
     scene: &Scene<D, M>,
-) -> Vec<[Option<Held>; D]> {
+) -> Result<Vec<[Option<Held>; D]>, Error> {
     let mut held = vec![[None; D]; functions.len()];
     functions.for_each_node(|node, position| {
         for (axis, held) in held[node].iter_mut().enumerate() {
@@ -41,7 +44,8 @@ pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
             });
         }
     });
-    held
+    require_held(scene.constraints.len(), held.as_flattened().iter().flatten().map(|held| held.by))?;
+    Ok(held)
 }
 
 /// The integrals of the constraints' amplitudes (s) over `dt` (s) from `time` (s).

@@ -70,9 +70,6 @@ impl Mass {
 
     /// The field that is `held` where something holds it, and elsewhere M times it is `right`, and how many iterations
     /// of conjugate gradients found it. Nodes without mass get zero.
-    ///
-    /// # Errors
-    /// The mass is singular.
     pub(super) fn solve<const D: usize>(
         &self,
         elements: &Elements<D>,

@@ -51,9 +51,6 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     fn beyond_wall(half_size: f64) -> f64;
 
     /// Whether these functions offer a stabilisation.
-    ///
-    /// # Errors
-    /// They do not.
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
 
     /// Gauss points along an axis that integrate the stiffness of an element.

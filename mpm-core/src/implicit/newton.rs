@@ -39,9 +39,6 @@ pub(crate) trait Equations {
     fn solved_by(&self, point: &Point<Self::Trial>) -> bool;
 
     /// Correction of the unknowns, K⁻¹ times the residual.
-    ///
-    /// # Errors
-    /// The matrix of this iteration is singular.
     fn correction(&mut self, from: &Point<Self::Trial>, iteration: u32) -> Result<Vec<f64>, Failure>;
 
     /// Largest share of a correction to try.

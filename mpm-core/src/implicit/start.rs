@@ -69,7 +69,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
         }
         let mut solver = Self {
             originals: functions.originals(),
-            held: held::components(&functions, &scene),
+            held: held::components(&functions, &scene)?,
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
             advance: Vec::new(),

@@ -158,9 +158,6 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     }
 
     /// Solves the step, from the increments `guess` of the unknowns (m) if they are nearer to equilibrium than none.
-    ///
-    /// # Errors
-    /// The method finds no solution.
     pub(super) fn solve(&mut self, guess: Option<Vec<f64>>) -> Result<Solution<D>, Failure> {
         let before = self.trial(&vec![0.0; self.step.unknowns.len()])?;
         self.start = norm(&self.step.free(&before.internal));

@@ -94,7 +94,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
         for face in &water.faces {
             face.check(scene.body.particles.len())?;
         }
-        let held = held::components(&solid_space.functions, &scene);
+        let held = held::components(&solid_space.functions, &scene)?;
         let tied = ties(&water.plates, &solid_space.functions, &held)?;
         scene.check_half_size()?;
         let particles = &mut scene.body.particles;

@@ -108,9 +108,6 @@ impl<const D: usize, M: Law> System<'_, D, M> {
     }
 
     /// Solves the step from the unknowns `x`.
-    ///
-    /// # Errors
-    /// The method finds no solution.
     pub(super) fn solve(&mut self, x: Vec<f64>) -> Result<(Trial<D>, Convergence), Failure> {
         let beginning = self.at(x)?;
         let most = self.step.settings.most_iterations;

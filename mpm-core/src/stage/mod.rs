@@ -24,6 +24,7 @@ pub use rest::{Observation, RestCriterion};
 pub use rigid_nodes::RigidNodes;
 pub use wall::{End, Wall, WallKind};
 
+use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::memory::Memory;
 use crate::nodes::NodalState;
@@ -111,6 +112,18 @@ pub trait Constraint<const D: usize>: Memory + Send {
 
     /// The same constraint seen from `frame`.
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>>;
+}
+
+/// Quantity in the error of a scene with a constraint that holds nothing.
+pub const HOLDS_NOTHING: &str = "place in the scene's list, from 0, of a constraint that holds no node of its own";
+
+/// Refuses one of `count` constraints that holds nothing, those that do so being at the places `by`.
+pub(crate) fn require_held(count: usize, by: impl Iterator<Item = usize>) -> Result<(), Error> {
+    let mut idle = vec![true; count];
+    by.for_each(|by| idle[by] = false);
+    let found = idle.iter().position(|idle| *idle);
+    let allowed = "a wall where the grid has one, or a region with nodes";
+    require(found.is_none(), HOLDS_NOTHING, found.unwrap_or(0) as f64, allowed)
 }
 
 /// A filter of the particles at the end of a step.

@@ -21,9 +21,6 @@ pub(super) trait Analysis: Sized + Send {
     /// Number of rows.
     fn rows(&self) -> usize;
     /// Analyses the `k`-th row.
-    ///
-    /// # Errors
-    /// A matrix has no factors.
     fn analyse(&self, k: usize) -> Result<Self::Found, mpm_core::Error>;
     /// The `k`-th row of the series.
     fn row(&self, k: usize, found: &Self::Found) -> Row;

@@ -35,9 +35,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// Requires the defaults of the parameters with these `names`, which only another kind of solver has.
-    ///
-    /// # Errors
-    /// One of them is changed.
     pub(super) fn forbid(&self, names: &[&str]) -> Result<(), Error> {
         let foreign = |p: &Parameter| names.contains(&p.name);
         for p in P::list().into_iter().filter(foreign) {
@@ -54,9 +51,6 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// Requires a solver of bodies that move, and the defaults of all parameters that it does not use.
-    ///
-    /// # Errors
-    /// A parameter that has no meaning with it is changed; a static solver.
     pub(super) fn check_rule(&self) -> Result<(), Error> {
         let refused = |solver: &str| {
             let solvers = ["explicit", "midpoint", "newmark"];
@@ -88,9 +82,6 @@ impl<P: ParameterSet> Setup<P> {
 
     /// The CFL number in `dimension` dimensions: the parameter, or, with `time_step=auto`, that of the step which is stable for
     /// any positions of particles, the smallest of which have a half size of `half_size` cells.
-    ///
-    /// # Errors
-    /// No step is stable with these functions.
     pub(super) fn cfl_number(&self, dimension: usize, half_size: f64) -> Result<f64, Error> {
         parameters::cfl_number(self.basis(), &self.values, dimension, half_size)
     }

@@ -151,10 +151,6 @@ impl Scene {
 
 /// Runs `spec` of `case` on `threads` threads within `memory` (bytes), if that is known, draws it into its folder, if it has
 /// one, and prints its size and progress.
-///
-/// # Errors
-/// The case does not offer the scheme, the scene exceeds the memory limit, the folder holds another run, or those of
-/// [`judged_run`].
 fn run_one(
     case: &Case,
     spec: &RunSpec,
@@ -170,6 +166,18 @@ fn run_one(
             &spec.scheme.to_string(),
             names.iter().map(String::as_str),
         ));
+    }
+    if let Some((folder, _)) = place {
+        // A run leaves one of these, also if it is killed.
+        let traces = [RECORD, checkpoint::FILE, ".mpm-verify", ".mpm-verify.lock"].map(|file| folder.join(file));
+        let files = ["series.csv", "particles.csv", "particles.vtu"].map(|file| folder.join(file));
+        let in_the_way = files.iter().find(|file| {
+            // A link is replaced, and what it leads to stays.
+            file.is_file() && !file.is_symlink() && !traces.iter().any(|trace| trace.exists())
+        });
+        if let Some(file) = in_the_way {
+            return Err(Error::file(file, "in the way, and not of a run of this program: name another folder"));
+        }
     }
     let held = place.map(|(folder, _)| hold(folder)).transpose()?;
     if let Some((folder, Saving { resume: true, .. })) = place {

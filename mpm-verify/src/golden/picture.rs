@@ -21,9 +21,6 @@ const SHADE: u16 = 17;
 const END_OF_PNG: &[u8] = b"IEND\xaeB`\x82";
 
 /// Draws the watched columns of runs over the first column of their series, a chart each, with a curve a run.
-///
-/// # Errors
-/// There are none, a run is of no scheme, or the picture can't be drawn.
 pub(super) fn curves(runs: &[Run], abscissa: &str) -> Result<RgbImage, Error> {
     let columns = runs.iter().flat_map(|run| &run.columns);
     let watched = columns.filter_map(|c| c.quantity.strip_prefix(SERIES));

@@ -24,9 +24,6 @@ impl Values {
     }
 
     /// A line with its numbers as they should be, and what those that are not are of.
-    ///
-    /// # Errors
-    /// A number does not end; its run, metric or format is unknown.
     pub(super) fn fill(&self, line: &str) -> Result<(String, Vec<String>), Error> {
         let (mut text, mut stale, mut rest) = (String::new(), Vec::new(), line);
         while let Some((before, after)) = rest.split_once(BEGIN) {

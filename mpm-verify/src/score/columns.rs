@@ -17,10 +17,6 @@ const SHOWN: usize = 40;
 const SEPARATORS: [(u8, &str); 3] = [(b',', "commas"), (b';', "semicolons"), (b'\t', "tabs")];
 
 /// Reads a table, and the line of each row.
-///
-/// # Errors
-/// The file can't be read; a row is longer or shorter than the head; a cell is no finite number: the error names line,
-/// column and cell.
 pub(super) fn read(path: &Path) -> Result<(Table, Vec<u64>), Error> {
     table(&read_file(path, TABLE)?).map_err(|said| Error::file(path, said))
 }

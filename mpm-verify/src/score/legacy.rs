@@ -5,9 +5,6 @@ use super::vtk::{self, Array, MOST, kind, numbers};
 use crate::table::Table;
 
 /// Reads a table of particles.
-///
-/// # Errors
-/// It is no such grid, or is cut: the error has the array or the line.
 pub(super) fn table(bytes: &[u8]) -> Result<Table, String> {
     let mut file = File { rest: bytes, ..File::default() };
     let [version, _, format] = [(); 3].map(|()| file.raw_line());

@@ -99,9 +99,6 @@ impl Array {
 type Column = (String, Vec<f64>);
 
 /// The table of arrays that are read and their numbers. A column that is there as a scalar goes before a component.
-///
-/// # Errors
-/// There is no array, a column is there twice, or a number is not finite: the error names the array.
 pub(super) fn table(arrays: impl Iterator<Item = Result<(Array, Vec<f64>), String>>) -> Result<Table, String> {
     let (mut columns, mut parts) = (Vec::<Column>::new(), Vec::<Column>::new());
     for array in arrays {

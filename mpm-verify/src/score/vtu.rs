@@ -38,9 +38,6 @@ struct Array {
 }
 
 /// Reads a table of particles.
-///
-/// # Errors
-/// It is no such grid: the error names the array.
 pub(super) fn table(bytes: &[u8]) -> Result<Table, String> {
     let end = bytes.windows(APPENDED.len()).position(|w| w == APPENDED);
     let (head, tail) = bytes.split_at(end.unwrap_or(bytes.len()));

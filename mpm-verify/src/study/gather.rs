@@ -170,9 +170,6 @@ fn judged(
 }
 
 /// Whether one program made all records.
-///
-/// # Errors
-/// Two did; the error names a record of each.
 fn of_one_program<'a>(mut records: impl Iterator<Item = &'a Record>) -> Result<(), Error> {
     let Some(first) = records.next() else {
         return Ok(());

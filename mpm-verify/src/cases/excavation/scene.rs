@@ -185,9 +185,6 @@ pub(super) struct Ground {
 
 impl Ground {
     /// The ground of a setup.
-    ///
-    /// # Errors
-    /// Parameters that make no scene; a parameter that has no meaning with the scheme, base or gravity is changed.
     pub(super) fn of(setup: Setup<Excavation>) -> Result<Self, Error> {
         let mut foreign = match setup.rule() {
             Some(Midpoint) => vec!["alpha", "delta"],

@@ -78,9 +78,6 @@ impl Setup<Footing> {
     }
 
     /// The pace of the footing. Where there is no inertia, time is the penetration over B.
-    ///
-    /// # Errors
-    /// A parameter that is not allowed, or that only another kind of solver has.
     pub(super) fn pace(&self) -> Result<Pace, Error> {
         if self.is_implicit() {
             self.forbid(&OF_EXPLICIT)?;

@@ -19,9 +19,6 @@ pub(super) struct Source {
 
 impl Source {
     /// Reads what the text says.
-    ///
-    /// # Errors
-    /// It is no TOML, or not of this form.
     pub(super) fn parse<T: for<'a> Deserialize<'a>>(&self) -> Result<T, Error> {
         toml::from_str(&self.text).map_err(|e| {
             let span = e.span().unwrap_or_default();
@@ -74,9 +71,6 @@ impl Source {
     }
 
     /// A file beside this one.
-    ///
-    /// # Errors
-    /// Not a plain name.
     pub(super) fn beside<T>(&self, value: &Line<T>, name: &str) -> Result<PathBuf, Error> {
         let plain = Path::new(name).file_name().is_some_and(|n| n == name);
         match plain {

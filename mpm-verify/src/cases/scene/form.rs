@@ -13,7 +13,7 @@ const MOST_CELLS: u32 = 100_000;
 macro_rules! numbers {
     ($($(#[$doc:meta])* $name:ident($of:ty): $fits:expr, $allowed:expr;)*) => {
         $($(#[$doc])*
-        #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+        #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
         #[serde(try_from = "f64")]
         pub(super) struct $name(pub(super) $of);
 
@@ -34,8 +34,6 @@ macro_rules! numbers {
 numbers! {
     /// A number.
     Finite(f64): |x| x.is_finite(), "a finite number";
-    /// An end of a region.
-    Bound(f64): |x| !x.is_nan(), "a number, inf or -inf";
     /// A length, density, stiffness.
     Positive(f64): |x| x.is_finite() && x > 0.0, "a positive, finite number";
     /// A duration, a factor.
@@ -50,6 +48,25 @@ numbers! {
     /// Cells along an axis.
     Cells(u32): |x| x.fract() == 0.0 && (4.0..=f64::from(MOST_CELLS)).contains(&x),
         format!("a whole number from 4 to {MOST_CELLS}");
+    /// Rows of a series.
+    Rows(u32): |x| x.fract() == 0.0 && (1.0..=f64::from(MOST_CELLS)).contains(&x),
+        format!("a whole number from 1 to {MOST_CELLS}");
+}
+
+/// Two ends along an axis, the lower one first; `-inf` and `inf` are allowed.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "Vec<f64>")]
+pub(super) struct Ends(pub(super) [f64; 2]);
+
+impl TryFrom<Vec<f64>> for Ends {
+    type Error = String;
+
+    fn try_from(given: Vec<f64>) -> Result<Self, String> {
+        match given[..] {
+            [lo, hi] if lo <= hi => Ok(Self([lo, hi])),
+            _ => Err(format!("{given:?} where a lower and an upper end are allowed, in this order")),
+        }
+    }
 }
 
 /// A name chosen by the user; it heads columns and appears in messages.
@@ -131,9 +148,9 @@ pub(super) enum EndForm {
 #[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Region {
-    pub(super) x_m: Option<[Bound; 2]>,
-    pub(super) y_m: Option<[Bound; 2]>,
-    pub(super) z_m: Option<[Bound; 2]>,
+    pub(super) x_m: Option<Ends>,
+    pub(super) y_m: Option<Ends>,
+    pub(super) z_m: Option<Ends>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -152,10 +169,10 @@ pub(super) enum ShapeForm {
     /// Seeded from one corner to the opposite one.
     Box { from_m: Vec<Finite>, to_m: Vec<Finite> },
     /// In the plane of x and y; in three dimensions between two z.
-    Polygon { corners_m: Vec<[Finite; 2]>, z_m: Option<[Finite; 2]> },
+    Polygon { corners_m: Vec<Vec<Finite>>, z_m: Option<Ends> },
     /// A disc, or a ball.
     Disc { centre_m: Vec<Finite>, radius_m: Positive },
-    /// Places from a CSV file beside the scene, with the columns `x (m)`, `y (m)`, `z (m)`.
+    /// From a CSV file beside the scene: places, and volumes and velocities if it has them.
     Particles { file: String },
 }
 
@@ -191,15 +208,9 @@ pub(super) enum LawForm {
         plastic_compressibility: Finite,
         preconsolidation_pa: Finite,
         initial_pressure_pa: Finite,
-        #[serde(default = "one")]
-        alpha: Finite,
-        #[serde(default = "one")]
-        gamma: Finite,
+        alpha: Option<Finite>,
+        gamma: Option<Finite>,
     },
-}
-
-fn one() -> Finite {
-    Finite(1.0)
 }
 
 /// A strength of von Mises' law: of undrained shear in plane strain, or as ‖s‖.
@@ -243,13 +254,9 @@ pub(super) struct FaceForm {
     #[serde(default)]
     pub(super) on: Region,
     pub(super) traction_pa: Option<Vec<Finite>>,
-    #[serde(default = "still")]
+    #[serde(default)]
     pub(super) rise_s: NotNegative,
     pub(super) drain_penalty_m_pa_s: Option<Positive>,
-}
-
-fn still() -> NotNegative {
-    NotNegative(0.0)
 }
 
 #[derive(Debug, Deserialize)]
@@ -257,7 +264,7 @@ fn still() -> NotNegative {
 pub(super) enum LoadForm {
     Gravity {
         acceleration_m_s2: Vec<Finite>,
-        #[serde(default = "still")]
+        #[serde(default)]
         rise_s: NotNegative,
         #[serde(default)]
         phases: Vec<String>,
@@ -266,7 +273,7 @@ pub(super) enum LoadForm {
     Force {
         total_n: Vec<Finite>,
         on: Region,
-        #[serde(default = "still")]
+        #[serde(default)]
         rise_s: NotNegative,
         #[serde(default)]
         phases: Vec<String>,
@@ -289,7 +296,7 @@ pub(super) enum SupportForm {
         name: Name,
         within: Region,
         velocity_m_s: BTreeMap<AxisForm, Finite>,
-        #[serde(default = "still")]
+        #[serde(default)]
         rise_s: NotNegative,
         #[serde(default)]
         phases: Vec<String>,
@@ -315,7 +322,7 @@ pub(super) struct ContactForm {
     #[serde(default)]
     pub(super) within: Region,
     pub(super) velocity_m_s: Option<Vec<Finite>>,
-    #[serde(default = "still")]
+    #[serde(default)]
     pub(super) rise_s: NotNegative,
     pub(super) stiffness_n_m: Positive,
     pub(super) reach_m: Positive,
@@ -376,5 +383,5 @@ pub(super) struct OutputForm {
     /// Time between two rows of the series.
     pub(super) row_s: Positive,
     /// Rows between two snapshots; none without.
-    pub(super) snapshot_rows: Option<Cells>,
+    pub(super) snapshot_rows: Option<Rows>,
 }

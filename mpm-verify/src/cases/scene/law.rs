@@ -52,7 +52,8 @@ impl Material {
                     preconsolidation_pa.0,
                     initial_pressure_pa.0,
                 )?;
-                Self::CamClay(clay.shaped(alpha.0, gamma.0)?)
+                let [alpha, gamma] = [alpha, gamma].map(|shape| shape.map_or(1.0, |x| x.0));
+                Self::CamClay(clay.shaped(alpha, gamma)?)
             }
         })
     }

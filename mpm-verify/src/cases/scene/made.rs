@@ -9,7 +9,7 @@ impl<const D: usize> Setup<D> {
     /// Size of the body (m).
     pub(super) fn reach(&self) -> [f64; D] {
         std::array::from_fn(|a| {
-            let along = || self.places.iter().map(|x| x[a]);
+            let along = || self.seeds.places.iter().map(|x| x[a]);
             let (least, most) = (along().fold(f64::MAX, f64::min), along().fold(f64::MIN, f64::max));
             most - least + self.spacing
         })
@@ -28,14 +28,14 @@ impl<const D: usize> Setup<D> {
         };
         let weight = self.form.loads.iter().map(weight).fold(0.0, f64::max);
         let size: Vec<String> = reach.iter().map(|reach| format!("{reach:.2}")).collect();
-        let volume = self.places.len() as f64 * self.spacing.powi(D as i32);
+        let volume: f64 = self.seeds.volumes.iter().sum();
         let of = |phase: &Phase| {
             let strength = phase.strength.map_or(String::new(), |s| format!(", undrained shear strength {s:.0} Pa"));
             format!(
                 "Phase {}: speed of sound {:.1} m/s{strength}; {} steps of {:.3e} s.",
                 phase.name,
                 phase.material.wave_speed(density),
-                phase.rows as u64 * phase.steps_per_row,
+                phase.steps,
                 phase.dt
             )
         };

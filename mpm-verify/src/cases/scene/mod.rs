@@ -25,6 +25,7 @@ use crate::verdict::Kind;
 use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;
+use shape::Seeds;
 use solving::{Compiled, Solving};
 use std::path::Path;
 use watch::{Course, MASS};
@@ -108,12 +109,13 @@ where
     let setup = Setup::<D>::new(source, form)?;
     let mut mass = 0.0;
     for phase in &setup.phases {
-        let run = Compiled::solve(&setup, phase);
-        let run = run.map_err(|e| Error::file(&source.path, format!("phase {}: {e}", phase.name)))?;
+        let run = Compiled::solve(&setup, phase).map_err(|e| setup.fault(source, phase, &e))?;
         mass = run.totals().mass;
     }
     let mut all = source.text.clone().into_bytes();
-    all.extend(setup.places.as_flattened().iter().flat_map(|x| x.to_le_bytes()));
+    let Seeds { places, volumes, velocities } = &setup.seeds;
+    let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened());
+    all.extend(numbers.flat_map(|x| x.to_le_bytes()));
     all.extend(source.weaker.to_le_bytes());
     let (made, height) = (setup.made(), setup.reach()[D - 1]);
     Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height })

@@ -1,13 +1,14 @@
 //! The phases of a scene, and how each is solved.
 
 use super::fault::{Line, Source};
-use super::form::{Form, LawForm, WaterForm};
+use super::form::{Form, WaterForm};
 use super::law::{Material, shear_strength};
 use crate::cases::prelude::*;
 
-/// Most rows of a phase, and most steps of a row.
+/// Most rows of a phase.
 const MOST_ROWS: f64 = 1e7;
-const MOST_STEPS: f64 = 1e12;
+/// Share of a duration by which it may differ from a whole number of steps.
+const WHOLE: f64 = 1e-3;
 
 /// A phase.
 pub(super) struct Phase {
@@ -15,10 +16,27 @@ pub(super) struct Phase {
     pub(super) material: Material,
     /// Undrained shear strength at the start (Pa), of a law that has one.
     pub(super) strength: Option<f64>,
-    pub(super) rows: usize,
-    pub(super) steps_per_row: u64,
+    pub(super) steps: u64,
+    steps_per_row: u64,
     pub(super) dt: f64,
     pub(super) damping: f64,
+}
+
+impl Phase {
+    /// Duration (s).
+    pub(super) fn duration(&self) -> f64 {
+        self.steps as f64 * self.dt
+    }
+
+    /// Number of rows, of which the last may be shorter.
+    pub(super) fn rows(&self) -> usize {
+        self.steps.div_ceil(self.steps_per_row) as usize
+    }
+
+    /// Steps of a row.
+    pub(super) fn steps_of(&self, row: usize) -> u64 {
+        self.steps_per_row.min(self.steps - row as u64 * self.steps_per_row)
+    }
 }
 
 /// The scheme, and that nothing is set that only another kind of solver has.
@@ -44,8 +62,7 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
     ];
     for (name, is_set, kinds) in own {
         if is_set && !kinds.contains(&kind) {
-            let said = format!("{name} has no meaning with the scheme {scheme}");
-            return Err(source.at(&form.solver, said));
+            return Err(source.at(&form.solver, format!("{name} has no meaning with the scheme {scheme}")));
         }
     }
     if form.water.is_some() != (kind == "poro") {
@@ -57,7 +74,6 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
 
 pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Result<Vec<Phase>, Error> {
     let porosity = form.water.as_ref().map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
-    let law = |at: &Line<_>, law: &LawForm| Material::of(law, porosity).map_err(|e| source.at(at, e));
     let own = Material::of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
     let (solver, row) = (form.solver.get_ref(), form.output.get_ref().row_s.0);
     let explicit = matches!(scheme, Scheme::Explicit(_));
@@ -65,7 +81,7 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
     for phase in &form.phases {
         let given = phase.get_ref();
         let material = match &given.law {
-            Some(changed) => law(phase, changed)?,
+            Some(changed) => Material::of(changed, porosity).map_err(|e| source.at(phase, e))?,
             None => own,
         };
         if std::mem::discriminant(&material) != std::mem::discriminant(&own) {
@@ -85,25 +101,26 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
                 return Err(source.at(&form.solver, said));
             }
         };
-        let rows = given.duration_s.0 / (dt * steps_per_row);
-        if !(0.5..=MOST_ROWS).contains(&rows) || steps_per_row > MOST_STEPS {
-            let said =
-                format!("{} s in rows of {} s: 1 to 10⁷ of them are allowed", given.duration_s.0, dt * steps_per_row);
+        let (duration, steps) = (given.duration_s.0, (given.duration_s.0 / dt).round());
+        let whole = (steps * dt - duration).abs() <= WHOLE * duration;
+        if !whole || steps / steps_per_row > MOST_ROWS {
+            let row = dt * steps_per_row;
+            let said = format!(
+                "{duration} s in steps of {dt} s, rows of {row} s: whole steps, to 0.1 % of the duration, in at most 10⁷ rows are allowed"
+            );
             return Err(source.at(phase, said));
         }
         if given.local_damping.is_some() && !explicit {
-            let said = "local_damping has no meaning with an implicit scheme";
-            return Err(source.at(phase, said));
+            return Err(source.at(phase, "local_damping has no meaning with an implicit scheme"));
         }
         if all.iter().any(|p| p.name == given.name.0) {
-            let said = format!("a second phase {:?}", given.name.0);
-            return Err(source.at(phase, said));
+            return Err(source.at(phase, format!("a second phase {:?}", given.name.0)));
         }
         all.push(Phase {
             name: given.name.0.clone(),
             material,
             strength: shear_strength(given.law.as_ref().unwrap_or(form.law.get_ref())),
-            rows: rows.round() as usize,
+            steps: steps as u64,
             steps_per_row: steps_per_row as u64,
             dt,
             damping: given.local_damping.map_or(0.0, |share| share.0),

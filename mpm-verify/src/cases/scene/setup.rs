@@ -2,22 +2,31 @@
 
 use super::fault::{Line, Source};
 use super::form::{
-    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, NotNegative,
-    SupportForm, WallForm, WallsForm,
+    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, SupportForm,
+    WallForm, WallsForm,
 };
+use super::law::Material;
 use super::phase::{Phase, phases, scheme};
-use super::shape::{ends, holds, seed, vector};
+use super::shape::{Seeds, ends, holds, seed, vector};
 use crate::cases::prelude::*;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit;
 use mpm_core::implicit::{self, GHOST, TimeRule};
 use mpm_core::poro::{self, Face, PressureSpace};
-use mpm_core::stage::{Constraint, DeadForce, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise};
+use mpm_core::stage::{
+    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise,
+};
 
 /// Share of the lumped mass with the midpoint rule: with the consistent mass alone a body that flies is singular.
 const LUMPED: f64 = 0.1;
 /// Most cells of a grid.
 const MOST_CELLS: f64 = 1e8;
+
+/// Relative difference of two lengths that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A part of a scene: its place in the file, its name and the phases in which it acts.
+type Named<'a> = (std::ops::Range<usize>, &'a str, &'a [String]);
 
 /// Everything that a run of a scene file needs.
 pub(super) struct Setup<const D: usize> {
@@ -25,8 +34,7 @@ pub(super) struct Setup<const D: usize> {
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
     grid: Grid<D>,
-    pub(super) places: Vec<[f64; D]>,
-    velocity: [f64; D],
+    pub(super) seeds: Seeds<D>,
     pub(super) spacing: f64,
 }
 
@@ -37,13 +45,13 @@ impl<const D: usize> Setup<D> {
         let scheme = scheme(source, &form)?;
         let body = form.body.get_ref();
         let spacing = grid.h / f64::from(body.particles_per_direction.0);
-        let places = seed(source, body, &grid, spacing)?;
         let velocity = match &body.velocity_m_s {
             Some(given) => vector(source, &form.body, "velocity_m_s", given)?,
             None => [0.0; D],
         };
+        let seeds = seed(source, body, &grid, spacing, velocity)?;
         let phases = phases(source, &form, scheme, grid.h)?;
-        let setup = Self { scheme, phases, grid, places, velocity, spacing, form };
+        let setup = Self { scheme, phases, grid, seeds, spacing, form };
         setup.check(source)?;
         Ok(setup)
     }
@@ -52,14 +60,9 @@ impl<const D: usize> Setup<D> {
     fn check(&self, source: &Source) -> Result<(), Error> {
         let known = |at: &std::ops::Range<usize>, phases: &[String]| {
             let unknown = phases.iter().find(|name| self.phases.iter().all(|p| p.name != **name));
-            match unknown {
-                None => Ok(()),
-                Some(name) => {
-                    let names: Vec<&str> = self.phases.iter().map(|p| &*p.name).collect();
-                    let said = format!("unknown phase {name:?}; allowed: {}", names.join(", "));
-                    Err(source.fault(at, said))
-                }
-            }
+            let Some(name) = unknown else { return Ok(()) };
+            let names: Vec<&str> = self.phases.iter().map(|p| &*p.name).collect();
+            Err(source.fault(at, format!("unknown phase {name:?}; allowed: {}", names.join(", "))))
         };
         for load in &self.form.loads {
             let (name, numbers, phases) = match load.get_ref() {
@@ -70,12 +73,22 @@ impl<const D: usize> Setup<D> {
             known(&load.span(), phases)?;
         }
         for support in &self.form.supports {
-            let (axes, phases): (Vec<AxisForm>, _) = match support.get_ref() {
-                SupportForm::Wall { axis, phases, .. } => (vec![*axis], phases),
-                SupportForm::Nodes { velocity_m_s, phases, .. } => (velocity_m_s.keys().copied().collect(), phases),
+            let axes: Vec<AxisForm> = match support.get_ref() {
+                SupportForm::Wall { axis, .. } => vec![*axis],
+                SupportForm::Nodes { velocity_m_s, .. } => velocity_m_s.keys().copied().collect(),
             };
             axes.iter().try_for_each(|axis| own_axis::<D, _>(source, support, *axis))?;
-            known(&support.span(), phases)?;
+            self.check_support(source, support)?;
+        }
+        let named = self.named().concat();
+        for (k, (at, name, phases)) in named.iter().enumerate() {
+            known(at, phases)?;
+            let same = |(_, other, others): &&(_, &str, &[String])| {
+                other == name && self.phases.iter().any(|p| acts(others, &p.name) && acts(phases, &p.name))
+            };
+            if named[..k].iter().any(|other| same(&other)) {
+                return Err(source.fault(at, format!("a second support or contact {name:?} in a phase")));
+            }
         }
         for contact in &self.form.contacts {
             let form = contact.get_ref();
@@ -83,7 +96,6 @@ impl<const D: usize> Setup<D> {
             if let Some(velocity) = &form.velocity_m_s {
                 vector::<D, _>(source, contact, "velocity_m_s", velocity)?;
             }
-            known(&contact.span(), &form.phases)?;
         }
         let faces = self.form.water.iter().flat_map(|w| &w.get_ref().faces);
         for face in faces {
@@ -103,6 +115,33 @@ impl<const D: usize> Setup<D> {
         Ok(())
     }
 
+    /// Refuses a wall where the grid has none, and nodes that move away from their region, which stays: by more than half a
+    /// cell along an axis where it ends.
+    fn check_support(&self, source: &Source, support: &Line<SupportForm>) -> Result<(), Error> {
+        let (within, velocity_m_s, rise_s, phases) = match support.get_ref() {
+            SupportForm::Wall { axis, end, .. } => {
+                let (lo, hi) = self.grid.axes[*axis as usize].wall_ends();
+                let there = matches!(end, EndForm::Lo) && lo || matches!(end, EndForm::Hi) && hi;
+                let said = "a wall at an end of the grid that has none";
+                return if there { Ok(()) } else { Err(source.at(support, said)) };
+            }
+            SupportForm::Nodes { within, velocity_m_s, rise_s, phases, .. } => (within, velocity_m_s, rise_s, phases),
+        };
+        let acting = self.phases.iter().filter(|phase| acts(phases, &phase.name)).map(Phase::duration);
+        let time: f64 = acting.map(|duration| duration - 0.5 * rise_s.0.min(duration)).sum();
+        for (axis, velocity) in velocity_m_s {
+            let (stroke, most) = ((velocity.0 * time).abs(), 0.5 * self.grid.h);
+            if stroke > most * (1.0 + ROUNDING) && ends::<D>(within)[*axis as usize].iter().any(|end| end.is_finite()) {
+                let said = format!(
+                    "nodes move {stroke} m along {axis:?} where their region stays: at most half a cell is allowed, {most} m, \
+                     or ends -inf and inf along that axis; [[contacts]] move farther"
+                );
+                return Err(source.at(support, said));
+            }
+        }
+        Ok(())
+    }
+
     /// Particles per cell.
     pub(super) fn per_cell(&self) -> u32 {
         self.form.body.get_ref().particles_per_direction.0.pow(D as u32)
@@ -116,28 +155,51 @@ impl<const D: usize> Setup<D> {
         }
     }
 
+    /// Supports, then contacts, in the scene's order: place in the file, name, phases.
+    fn named(&self) -> [Vec<Named<'_>>; 2] {
+        let supports = self.form.supports.iter().map(|s| match s.get_ref() {
+            SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => {
+                (s.span(), &*name.0, &phases[..])
+            }
+        });
+        let contacts = self.form.contacts.iter();
+        let contacts = contacts.map(|c| (c.span(), &*c.get_ref().name.0, &c.get_ref().phases[..]));
+        [supports.collect(), contacts.collect()]
+    }
+
     /// Names of supports, then of contacts, of a phase, in the scene's order.
     pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 2] {
-        let supports = self.form.supports.iter().map(|s| match s.get_ref() {
-            SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => (name, phases),
-        });
-        let contacts = self.form.contacts.iter().map(|c| {
-            let form = c.get_ref();
-            (&form.name, &form.phases)
-        });
-        [
-            supports.filter(|(_, phases)| acts(phases, phase)).map(|(name, _)| &*name.0).collect(),
-            contacts.filter(|(_, phases)| acts(phases, phase)).map(|(name, _)| &*name.0).collect(),
-        ]
+        self.named()
+            .map(|all| all.iter().filter(|(.., phases)| acts(phases, phase)).map(|(_, name, _)| *name).collect())
+    }
+
+    /// The error of a phase that can't begin, with the place of a support that holds nothing.
+    pub(super) fn fault(&self, source: &Source, phase: &Phase, error: &mpm_core::Error) -> Error {
+        let acting = |(.., phases): &&Named<'_>| acts(phases, &phase.name);
+        match *error {
+            mpm_core::Error::Input { what: HOLDS_NOTHING, value, allowed } => {
+                let [supports, _] = self.named();
+                let at = supports.iter().filter(acting).nth(value as usize).map_or(0..0, |(at, ..)| at.clone());
+                source.fault(&at, format!("a support that holds no node of its own: {allowed}"))
+            }
+            _ => Error::file(&source.path, format!("phase {}: {error}", phase.name)),
+        }
     }
 
     /// The scene of a phase, of a body of some law.
     pub(super) fn scene<M: Law>(&self, law: M, phase: &Phase) -> Result<Scene<D, M>, mpm_core::Error> {
         let body = self.form.body.get_ref();
-        let half_size = [0.5 * self.spacing; D];
-        let volume = self.spacing.powi(D as i32);
-        let mut particles = Particles::new(self.places.clone(), volume, body.density_kg_m3.0, half_size)?;
-        particles.velocity.fill(self.velocity);
+        let Seeds { places, volumes, velocities } = &self.seeds;
+        let (density, lattice) = (body.density_kg_m3.0, self.spacing.powi(D as i32));
+        // Domains are alike: those of a table that has volumes are as large as its largest particle.
+        let largest = volumes.iter().copied().fold(0.0, f64::max);
+        let size = if largest == lattice { self.spacing } else { largest.powf(1.0 / D as f64) };
+        let mut particles = Particles::new(places.clone(), lattice, density, [0.5 * size.min(self.grid.h); D])?;
+        if volumes.iter().any(|volume| *volume != lattice) {
+            particles.mass = volumes.iter().map(|volume| density * volume).collect();
+            (particles.volume, particles.reference_volume) = (volumes.clone(), volumes.clone());
+        }
+        particles.velocity.clone_from(velocities);
         let loads = self.loads(&phase.name, &particles)?;
         let contacts = self.contacts(&phase.name)?;
         Ok(Scene {
@@ -247,8 +309,10 @@ impl<const D: usize> Setup<D> {
     /// How a run with water takes its steps.
     pub(super) fn poro(&self, phase: &Phase) -> poro::Settings {
         let form = self.form.solver.get_ref();
-        let settings = poro::Settings::new(phase.dt);
-        let number = |x: Option<NotNegative>| x.map_or(0.0, |x| x.0);
+        let mut settings = poro::Settings::new(phase.dt);
+        if let Material::CamClay(_) = phase.material {
+            settings = settings.tangent(poro::Tangent::Consistent);
+        }
         poro::Settings {
             pressure_space: match self.scheme {
                 Scheme::Poro(parts) if parts.space == SpaceName::TwoGrid => PressureSpace::TwoGrid,
@@ -259,7 +323,7 @@ impl<const D: usize> Setup<D> {
             },
             tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
             ghost_displacement: form.ghost_penalty.map_or(GHOST, |factor| factor.0),
-            ghost_pressure: number(form.ghost_pressure),
+            ghost_pressure: form.ghost_pressure.map_or(0.0, |share| share.0),
             ..settings
         }
     }

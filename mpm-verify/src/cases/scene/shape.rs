@@ -1,10 +1,10 @@
 //! Where the particles of a body stand: at the points (k + ½) s of a lattice, with whole numbers k and the distance s, that
-//! lie in one of its shapes.
+//! lie in one of its shapes, or where a table has them.
 
 use super::fault::{Line, Source};
-use super::form::{BodyForm, Finite, Region, ShapeForm};
+use super::form::{BodyForm, Ends, Finite, Region, ShapeForm};
 use crate::cases::prelude::*;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Most particles of a scene.
 const MOST: usize = 50_000_000;
@@ -14,45 +14,90 @@ const LOOKED_AT: f64 = 4.0;
 const ON_SIDE: f64 = 1e-9;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// The places (m) of the particles, shape by shape; a point of two shapes is there once.
-///
-/// # Errors
-/// A shape of another dimension, without a point or with one off the grid, a file that can't be read, too many particles.
+/// Share of the mean size of two particles within which the one stands on the other, along every axis.
+const OVERLAP: f64 = 0.75;
+
+/// The particles at the start.
+#[derive(Default)]
+pub(super) struct Seeds<const D: usize> {
+    /// Places (m).
+    pub(super) places: Vec<[f64; D]>,
+    /// Volumes (m³; m² in the plane, m along a line).
+    pub(super) volumes: Vec<f64>,
+    /// Velocities (m/s).
+    pub(super) velocities: Vec<[f64; D]>,
+}
+
+/// The particles, shape by shape; a point of two shapes is there once.
 pub(super) fn seed<const D: usize>(
     source: &Source,
     body: &BodyForm,
     grid: &Grid<D>,
     spacing: f64,
-) -> Result<Vec<[f64; D]>, Error> {
-    let mut places = Vec::new();
+    velocity: [f64; D],
+) -> Result<Seeds<D>, Error> {
+    let mut seeds = Seeds::default();
     let mut taken = HashSet::new();
     for shape in &body.shapes {
-        let before = places.len();
+        let before = seeds.places.len();
         if let ShapeForm::Particles { file } = shape.get_ref() {
-            places.extend(from_file::<D>(source, shape, file)?);
+            read(source, shape, file, grid.h, &mut seeds)?;
         } else {
             let form = Shape::<D>::of(source, shape, spacing)?;
-            let room = MOST.saturating_sub(places.len());
+            let room = MOST.saturating_sub(before);
             if form.points() > LOOKED_AT * MOST as f64 {
                 return Err(too_many(source, shape));
             }
             for k in form.lattice() {
                 let x = k.map(|k| (k as f64 + 0.5) * spacing);
                 if (form.holds)(&x) && taken.insert(k) {
-                    if places.len() - before >= room {
+                    if seeds.places.len() - before >= room {
                         return Err(too_many(source, shape));
                     }
-                    places.push(x);
+                    seeds.places.push(x);
                 }
             }
         }
-        if places.len() == before {
+        let count = seeds.places.len();
+        seeds.volumes.resize(count, spacing.powi(D as i32));
+        seeds.velocities.resize(count, velocity);
+        if count == before {
             let said = format!("a shape without a particle: they stand {spacing} m apart");
             return Err(source.at(shape, said));
         }
-        check_on_grid(source, shape, grid, &places[before..])?;
+        check_on_grid(source, shape, grid, &seeds.places[before..])?;
     }
-    Ok(places)
+    let table = body.shapes.iter().find(|shape| matches!(shape.get_ref(), ShapeForm::Particles { .. }));
+    match table.and_then(|table| Some((table, overlapping(&seeds)?))) {
+        None => Ok(seeds),
+        Some((table, [j, k])) => {
+            let [a, b] = [j, k].map(|k| seeds.places[k]);
+            let said = format!("particles {j} and {k} of the body, counted from 0, overlap: at {a:?} and {b:?} m");
+            Err(source.at(table, said))
+        }
+    }
+}
+
+/// Two particles of which one stands on the other.
+fn overlapping<const D: usize>(seeds: &Seeds<D>) -> Option<[usize; 2]> {
+    let size: Vec<f64> = seeds.volumes.iter().map(|volume| volume.powf(1.0 / D as f64)).collect();
+    let largest = size.iter().copied().fold(0.0, f64::max);
+    let mut bins: HashMap<[i64; D], Vec<usize>> = HashMap::new();
+    for (k, x) in seeds.places.iter().enumerate() {
+        let own = x.map(|x| (x / largest).floor() as i64);
+        for beside in 0..3_usize.pow(D as u32) {
+            let bin = std::array::from_fn(|a| own[a] + (beside / 3_usize.pow(a as u32) % 3) as i64 - 1);
+            let near = |j: &&usize| {
+                let apart = x.iter().zip(&seeds.places[**j]).map(|(x, y)| (x - y).abs());
+                apart.fold(0.0, f64::max) < OVERLAP * 0.5 * (size[k] + size[**j])
+            };
+            if let Some(j) = bins.get(&bin).and_then(|bin| bin.iter().find(near)) {
+                return Some([*j, k]);
+            }
+        }
+        bins.entry(own).or_default().push(k);
+    }
+    None
 }
 
 /// Refuses a shape with a particle off the grid.
@@ -79,9 +124,6 @@ fn too_many<T>(source: &Source, shape: &Line<T>) -> Error {
 }
 
 /// Components along the axes.
-///
-/// # Errors
-/// More or fewer than the grid has axes.
 pub(super) fn vector<const D: usize, T>(
     source: &Source,
     at: &Line<T>,
@@ -91,7 +133,7 @@ pub(super) fn vector<const D: usize, T>(
     let numbers: Vec<f64> = given.iter().map(|x| x.0).collect();
     <[f64; D]>::try_from(numbers).map_err(|numbers| {
         let count = numbers.len();
-        let said = format!("{name} has {count} numbers where the grid has {D} axes");
+        let said = format!("{name} has {count} numbers where {D} axes have one each");
         source.at(at, said)
     })
 }
@@ -99,10 +141,7 @@ pub(super) fn vector<const D: usize, T>(
 /// Lower and upper end (m) of a region along the axes.
 pub(super) fn ends<const D: usize>(region: &Region) -> [[f64; 2]; D] {
     let all = [region.x_m, region.y_m, region.z_m];
-    std::array::from_fn(|a| match all[a] {
-        Some(ends) => ends.map(|x| x.0),
-        None => [f64::NEG_INFINITY, f64::INFINITY],
-    })
+    std::array::from_fn(|a| all[a].map_or([f64::NEG_INFINITY, f64::INFINITY], |ends| ends.0))
 }
 
 /// Whether a region, its sides with it, has a place (m).
@@ -146,7 +185,8 @@ impl<const D: usize> Shape<D> {
                                 has a third axis, nowhere else";
                     return Err(source.at(at, said));
                 }
-                let corners: Vec<[f64; 2]> = corners_m.iter().map(|c| c.map(|x| x.0)).collect();
+                let corners = corners_m.iter().map(|corner| vector::<2, _>(source, at, "a corner", corner));
+                let corners = corners.collect::<Result<Vec<_>, _>>()?;
                 if let Some([k, m]) = crossing(&corners) {
                     let said = format!(
                         "the polygon crosses itself: its side {} crosses its side {}, the first from its first corner to its second",
@@ -155,7 +195,7 @@ impl<const D: usize> Shape<D> {
                     );
                     return Err(source.at(at, said));
                 }
-                let z = z_m.map_or([0.0; 2], |ends| ends.map(|x| x.0));
+                let z = z_m.map_or([0.0; 2], |Ends(ends)| ends);
                 let end = |best: fn(f64, f64) -> f64, side: usize| {
                     std::array::from_fn(|a| match a {
                         2 => z[side],
@@ -238,19 +278,47 @@ fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2], margin: f64) -> bool {
     inside
 }
 
-/// Places from a table.
-fn from_file<const D: usize>(source: &Source, at: &Line<ShapeForm>, name: &str) -> Result<Vec<[f64; D]>, Error> {
+/// Adds the particles of a table. Without a volume they have that of the lattice, without a velocity that of the body.
+fn read<const D: usize>(
+    source: &Source,
+    at: &Line<ShapeForm>,
+    name: &str,
+    h: f64,
+    seeds: &mut Seeds<D>,
+) -> Result<(), Error> {
     let path = source.beside(at, name)?;
     let table = Table::read_finite(&path)?;
-    let columns = AXES.map(|axis| table.column(axis));
-    let rows = columns[0].len();
-    if let Some(axis) = (0..D).find(|a| columns[*a].len() != rows || rows == 0) {
-        let said = format!("no column {} (m), or no rows", AXES[axis]);
-        return Err(Error::file(&path, said));
+    let places = AXES.map(|axis| format!("{axis} (m)"));
+    let velocities = AXES.map(|axis| format!("velocity_{axis} (m/s)"));
+    let volume = format!("volume ({})", ["m", "m²", "m³"][D - 1]);
+    let known: Vec<&String> = places[..D].iter().chain(&velocities[..D]).chain([&volume]).collect();
+    let fault = |said: String| Err(Error::file(&path, said));
+    if let Some((head, _)) = table.iter().find(|(head, _)| known.iter().all(|known| known != head)) {
+        return fault(format!("column {head:?} where {known:?} are read"));
     }
-    if rows > MOST {
+    if let Some(lacks) = places[..D].iter().find(|head| table.get(head).is_none_or(<[f64]>::is_empty)) {
+        return fault(format!("no column {lacks:?}, or no rows"));
+    }
+    if table.rows() > MOST {
         return Err(too_many(source, at));
     }
-    let place = |k: usize| std::array::from_fn(|a| columns[a][k]);
-    Ok((0..rows).map(place).collect())
+    let row =
+        |heads: &[String; 3], k: usize| std::array::from_fn(|a| table.get(&heads[a]).map_or(0.0, |column| column[k]));
+    seeds.places.extend((0..table.rows()).map(|k| row(&places, k)));
+    if let Some(volumes) = table.get(&volume) {
+        let most = h.powi(D as i32);
+        if let Some(k) = volumes.iter().position(|v| *v <= 0.0 || *v > most) {
+            return fault(format!(
+                "{volume}, row {}: {} where at most that of a cell is allowed, {most}",
+                k + 1,
+                volumes[k]
+            ));
+        }
+        seeds.volumes.extend(volumes);
+    }
+    if velocities.iter().any(|head| table.get(head).is_some()) {
+        // Particles of shapes before this one have theirs already.
+        seeds.velocities.extend((0..table.rows()).map(|k| row(&velocities, k)));
+    }
+    Ok(())
 }

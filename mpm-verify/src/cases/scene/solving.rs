@@ -10,9 +10,6 @@ use mpm_solvers::{implicit, poro, solver};
 /// A dimension with the solvers of its scenes.
 pub(super) trait Solving<const D: usize> {
     /// The simulation of a phase at its start.
-    ///
-    /// # Errors
-    /// The solver refuses the scene, or none is compiled for its law and scheme.
     fn solve(setup: &Setup<D>, phase: &Phase) -> Result<Box<dyn Simulation<D>>, Error>;
 }
 

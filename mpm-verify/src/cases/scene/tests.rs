@@ -69,10 +69,36 @@ fn refusal(from: &str, to: &str) -> String {
     }
 }
 
+/// A support of `slope.toml`.
+const BACK: &str = "wall = { name = \"back\", axis = \"x\", end = \"lo\", kind = \"roller\" }";
+
+#[test]
+fn a_phase_lasts_as_long_as_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
+    std::fs::write(&path, text.replace("duration_s = 1.0", "duration_s = 0.05")).unwrap();
+    let scene = SceneFile::read(&path, 1.0).unwrap();
+    let none = Parameters::new(&[], &[]).unwrap();
+    let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
+    let times: Vec<f64> = (0..4).map(|_| job.advance().unwrap().0[0].1).collect();
+    for (time, expected) in times.iter().zip([0.02, 0.04, 0.05, 0.07]) {
+        assert!((time - expected).abs() < 1e-3 * 0.05, "{times:?}");
+    }
+}
+
+#[test]
+fn nodes_slide_along_a_region_without_ends_and_every_row_may_have_a_snapshot() {
+    let along = "nodes = { name = \"n\", within = { y_m = [0, 0.5] }, velocity_m_s = { x = 0.1 } }";
+    for (from, to) in [(BACK, along), ("snapshot_rows = 50", "snapshot_rows = 1")] {
+        assert_eq!(refusal(from, to), format!("{to}: nothing is wrong with it"));
+    }
+}
+
 #[test]
 fn what_is_wrong_is_named_with_line_and_key() {
     // What is replaced, by what; what the error must say.
-    let wrong: [(&str, &str, &[&str]); 23] = [
+    let wrong: [(&str, &str, &[&str]); 31] = [
         ("cell_size_m", "cell_sise_m", &["line 7", "cell_sise_m", "is `cell_size_m` meant?"]),
         ("cell_size_m = 0.5", "cell_size_m = -0.5", &["line 7, cell_size_m", "-0.5", "positive"]),
         ("cell_size_m = 0.5", "cell_size_m = \"0.5\"", &["line 7, cell_size_m", "string"]),
@@ -100,6 +126,30 @@ fn what_is_wrong_is_named_with_line_and_key() {
         ("gimp-fbar-consistent-flip", "gimp-fbar-flip", &["[solver]", "fbar", "fbar-consistent"]),
         ("cfl = 0.3", "cfl = 0.3\ntolerance = 1e-9", &["tolerance has no meaning"]),
         ("duration_s = 1.0", "duration_s = inf", &["duration_s", "inf"]),
+        ("cfl = 0.3", "time_step_s = 0.3", &["1 s in steps of 0.3 s", "whole steps"]),
+        ("[30, 0], [30, 1]", "[30, 0, 7], [30, 1]", &["line 15", "a corner has 3 numbers", "2 axes"]),
+        ("name = \"back\"", "name = \"base\"", &["line 30", "a second support or contact \"base\""]),
+        ("end = \"lo\", kind = \"roller\"", "end = \"hi\", kind = \"roller\"", &["line 30", "a wall at an end"]),
+        (
+            BACK,
+            "nodes = { name = \"n\", within = { x_m = [3, 2] }, velocity_m_s = { x = 0 } }",
+            &["[3.0, 2.0]", "lower"],
+        ),
+        (
+            BACK,
+            "nodes = { name = \"n\", within = { x_m = [1, 2, 3] }, velocity_m_s = { x = 0 } }",
+            &["[1.0, 2.0, 3.0]"],
+        ),
+        (
+            BACK,
+            "nodes = { name = \"n\", within = { x_m = [1.1, 1.2] }, velocity_m_s = { x = 0 } }",
+            &["line 30", "holds no node"],
+        ),
+        (
+            BACK,
+            "nodes = { name = \"n\", within = { x_m = [0, 2] }, velocity_m_s = { x = 0.1 }, rise_s = 1 }",
+            &["line 30", "0.3", "half a cell", "0.25 m"],
+        ),
     ];
     for (from, to, parts) in wrong {
         let said = refusal(from, to);
@@ -133,6 +183,32 @@ fn particles_stand_where_shapes_are() {
     assert!((disc as f64 / 16.0 - 2.5 * 2.5 * std::f64::consts::PI).abs() < 1.0, "{disc}");
     std::fs::write(folder.path().join("p.csv"), "x (m),y (m)\n1.1,1\n2.3,1\n").unwrap();
     assert_eq!(count("particles = { file = \"p.csv\" }").unwrap(), 2);
+    let table = "particles = { file = \"p.csv\" }";
+    std::fs::write(folder.path().join("p.csv"), "x (m),y (m),volume (m²),velocity_x (m/s)\n1.1,1,0.2,2\n2.3,1,0.1,0\n")
+        .unwrap();
+    assert_eq!(count(table).unwrap(), 2);
+    let scene = SceneFile::read(&path, 1.0).unwrap();
+    assert!(scene.made[0].contains("0.30 m²"), "{}", scene.made[0]);
+    let none = Parameters::new(&[], &[]).unwrap();
+    let start = (scene.case.begin)(&scene.spec, &none).unwrap().particles();
+    let velocity = start.iter().find(|column| column.name == "velocity_x").unwrap();
+    let mut found = velocity.values.clone();
+    found.sort_by(f64::total_cmp);
+    assert_eq!(found, [0.0, 2.0]);
+    for (text, part) in [
+        ("x (mm),y (m)\n1.1,1\n", "x (mm)"),
+        ("x (m),y (m),mass (kg)\n1.1,1,3\n", "mass (kg)"),
+        ("x (m),y (m)\n1.1,1\n1.15,1.1\n", "overlap"),
+        ("x (m),y (m),volume (m²)\n1.1,1,0.3\n", "0.25"),
+        ("x (m)\n1.1\n", "y (m)"),
+    ] {
+        std::fs::write(folder.path().join("p.csv"), text).unwrap();
+        let said = count(table).unwrap_err().to_string();
+        assert!(said.contains(part), "{part} in: {said}");
+    }
+    let twice = format!("{square}\n[[body.shapes]]\n{table}");
+    std::fs::write(folder.path().join("p.csv"), "x (m),y (m)\n1.1,1\n").unwrap();
+    assert!(count(&twice).unwrap_err().to_string().contains("overlap"));
     for (by, part) in [
         ("particles = { file = \"../p.csv\" }", "beside the scene"),
         ("particles = { file = \"q.csv\" }", "q.csv"),

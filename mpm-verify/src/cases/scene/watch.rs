@@ -68,13 +68,13 @@ where
 
     /// Rows of all phases.
     fn whole(&self) -> usize {
-        self.setup.phases.iter().map(|p| p.rows).sum()
+        self.setup.phases.iter().map(Phase::rows).sum()
     }
 
     /// Mean force (N) over the last row on every part of the scene, in all phases' order; zero on one that a phase has not.
     fn forces(&self, seen: &mut Seen, run: &dyn Simulation<D>) -> Vec<f64> {
         let phase = self.phase(seen);
-        let duration = phase.steps_per_row as f64 * phase.dt;
+        let duration = phase.steps_of(seen.row - 1) as f64 * phase.dt;
         let here = self.setup.parts(&phase.name);
         let mut forces = Vec::new();
         for (k, name) in self.parts.iter().enumerate() {
@@ -176,7 +176,7 @@ where
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut problem::Phase<D>) -> Result<Row, mpm_core::Error> {
-        if seen.row == self.phase(seen).rows {
+        if seen.row == self.phase(seen).rows() {
             let body = phase.run.body()?;
             seen.before += phase.run.time();
             (seen.phase, seen.row) = (seen.phase + 1, 0);
@@ -184,7 +184,7 @@ where
             phase.enter(self.begin(seen)?, Some(&body))?;
         }
         seen.impulses.resize(self.parts.len(), [0.0; 3]);
-        let iterations = phase.iterate(self.phase(seen).steps_per_row)?;
+        let iterations = phase.iterate(self.phase(seen).steps_of(seen.row))?;
         (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
         let run = phase.run.as_ref();
         let totals = run.totals();
@@ -235,7 +235,7 @@ where
         let most = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
         let totals = run.totals();
-        vec![
+        let all = [
             (MASS, totals.mass),
             (MOST_MOVED, most_moved(run)),
             (KINETIC, totals.kinetic_energy),
@@ -245,6 +245,7 @@ where
             (STRESS_MAX, most(&mean)),
             (BOARD, checkerboard(&mean, &averaged)),
             (PLASTIC, most(&plastic)),
-        ]
+        ];
+        all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).into()
     }
 }

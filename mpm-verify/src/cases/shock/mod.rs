@@ -138,11 +138,6 @@ impl Run<'_, Shock> {
         self.is_sound() && self.takes_ringing() && (self.support()..0.25 * WAY).contains(&width)
     }
 
-    /// Whether half of the viscosity's front reaches the particles that are looked at behind it.
-    fn is_wide(&self) -> bool {
-        self.metric(PREDICTED_WIDTH) > 2.0 * (1.0 - run::BEHIND[1]) * WAY
-    }
-
     /// Largest error of the front over its tolerance.
     fn worst_miss(&self) -> f64 {
         let errors = [SHOCK_SPEED_ERROR, STRESS_ERROR, WALL_FORCE_ERROR].map(|metric| self.metric(metric).abs());
@@ -158,8 +153,10 @@ impl Run<'_, Shock> {
 
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Shock>;
-    let narrow =
-        |check: Check| check.unless(|r| r.is_wide().then(|| "the front is as wide as what is behind it".to_owned()));
+    // Half of the viscosity's front stays clear of the particles that are looked at behind it.
+    let is_wide = |r: &Run<Shock>| r.metric(PREDICTED_WIDTH) > 2.0 * (1.0 - run::BEHIND[1]) * WAY;
+    let wide = "the front is as wide as what is behind it";
+    let narrow = |check: Check| check.unless(move |r| is_wide(r).then(|| wide.to_owned()));
     let exact = |check: Check, metric| {
         narrow(check).within(metric, |_| 0.0, |r| 2.0 * r.bound()).of_scale(|_| 1.0).because(JUMPS)
     };

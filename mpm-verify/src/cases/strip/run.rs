@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::cases::poro::{above_rounding, kept, matrix_entries, outflow, volumes};
+use mpm_core::Error::{NoConvergence, Singular};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
@@ -264,12 +265,6 @@ impl Seen {
     }
 }
 
-/// Whether a step has no solution: of clay, that its limit is reached.
-fn has_no_solution(error: &mpm_core::Error) -> bool {
-    use mpm_core::Error::{NoConvergence, Singular};
-    matches!(error, NoConvergence { .. } | Singular { .. })
-}
-
 impl<const D: usize> Problem<D> for Setup<Strip>
 where
     Self: Ground<D>,
@@ -306,8 +301,8 @@ where
         let iterations = phase.run.work().newton_iterations;
         let before = volumes(phase.run.as_ref());
         match phase.steps(1) {
-            // The result of the last parts is a state like others.
-            Err(error) if self.is_plastic() && has_no_solution(&error) => seen.stopped = true,
+            // The clay's limit is reached. The result of the last parts is a state like others.
+            Err(NoConvergence { .. } | Singular { .. }) if self.is_plastic() => seen.stopped = true,
             other => other?,
         }
         seen.steps += 1;
