@@ -110,7 +110,7 @@ def table(results, basis):
             offered = column[2] == "price" or results[f"{basis} | {remedy} | {column[2]}"]["status"] != "refused"
             text = "–" if offered else ""
             if remedy in errors:
-                text = format(number, form)
+                text = format(number, form).replace("-", "−")
                 text = f"**{text}**" if errors[remedy] <= BEST * max(min(errors.values()), 1e-9) else text
             cells[remedy].append(text)
     return cells
