@@ -19,8 +19,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
-    /// A time step or particle that is not allowed; a particle off the grid; a
-    /// time step beyond the CFL limit; a particle in a rigid body.
+    /// A time step or particle that is not allowed; a particle off the grid; a time step beyond the CFL limit; a
+    /// particle in a rigid body; a constraint that holds no node of its own.
     pub fn new(mut scene: Scene<D, M>, mut settings: Settings<D, T>) -> Result<Self, Error> {
         positive(settings.dt, "time step", "positive (s)")?;
         scene.check_half_size()?;

@@ -16,8 +16,8 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
     ///
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions do not offer; F̄ with a law that is
-    /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only; a
-    /// particle off the grid.
+    /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only
+    /// or that holds no node of its own; a particle off the grid.
     pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;

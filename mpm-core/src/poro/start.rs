@@ -70,8 +70,8 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
     ///
     /// # Errors
     /// A setting, a property of the water or a particle that is not allowed; a contact, or a constraint on one side
-    /// only; a particle off the grid; a face without particles or in an empty cell, a plate without nodes or on nodes
-    /// that something else holds.
+    /// only or that holds no node of its own; a particle off the grid; a face without particles or in an empty cell, a
+    /// plate without nodes or on nodes that something else holds.
     pub fn new(mut scene: Scene<D, M>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
         settings.check(M::CONSERVATIVE)?;
         let contacts = scene.contacts.len();
