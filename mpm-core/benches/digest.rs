@@ -44,14 +44,14 @@ fn checksum<const D: usize>(p: &Particles<D>) -> u64 {
 
 fn run<const D: usize, const S: usize, B: Basis<S>>(
     name: &str,
-    law: impl Law,
+    law: impl Law + 'static,
     remedy: impl Remedy<D> + 'static,
     transfer: impl Transfer<D>,
 ) -> Result<(), Box<dyn Error>> {
     // Odd, so that some particles have no seven others beside them.
     let n = if D == 2 { 21 } else { 11 };
     let rate = law.wave_speed(DENSITY) / (SLOWNESS * 0.5 * n as f64);
-    let mut solver = sheared::<D, S, B, _, _>(n, rate, law, remedy, transfer)?;
+    let mut solver = sheared::<D, S, B, _>(n, rate, law, remedy, transfer)?;
     for _ in 0..STEPS {
         solver.step()?;
     }

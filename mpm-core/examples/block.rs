@@ -37,7 +37,7 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
     let settings = Settings::new(dt).remedy(remedy).filter_forces(LocalDamping::new(0.1)?);
 
     // Three functions of a quadratic spline are non-zero at a point.
-    let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings)?;
+    let mut solver = Solver::<2, 3, QuadraticBSpline>::new(scene, settings)?;
     while solver.time() < DURATION {
         solver.step()?;
     }

@@ -1,50 +1,50 @@
 //! A body: one material, one set of particles, and the state of each.
 
-use crate::eights::{entries, fetch};
+use crate::eights::{entries, fetch, fetch_rows, matrix_entries, numbers};
 use crate::error::{Error, Fault};
-use crate::material::{Law, State};
+use crate::material::{AnyLaw, SharedLaw};
 use crate::memory::{MemoryError, Saved};
 use crate::monitor::{Accumulated, Totals};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::Front;
-use crate::particles::{Particles, permute};
+use crate::parallel::{CHUNK, Front, Rows, for_each_piece};
+use crate::particles::Particles;
 use crate::space;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 
 /// Particles of one material with their states.
-pub struct Body<const D: usize, M: Law> {
+pub struct Body<const D: usize> {
     /// The law of the material.
-    pub law: M,
+    pub law: SharedLaw,
     /// The particles.
     pub particles: Particles<D>,
-    /// Law's state of each.
-    states: Vec<M::State>,
+    /// The rows of the particles' states.
+    states: Vec<f64>,
 }
 
-impl<const D: usize, M: Law> Body<D, M> {
+impl<const D: usize> Body<D> {
     /// The body at the start: at the deformation gradients of the particles' `delta_f`, with the stress and state of
     /// rest there.
     ///
     /// # Errors
     /// [`Error::Breakdown`] of a particle whose J is not positive and finite.
-    pub fn new(law: M, particles: Particles<D>) -> Result<Self, Error> {
-        let mut body = Self { states: Vec::with_capacity(particles.len()), law, particles };
-        let p = &mut body.particles;
-        for (k, f) in p.delta_f.iter().enumerate() {
+    pub fn new(law: impl Into<SharedLaw>, mut particles: Particles<D>) -> Result<Self, Error> {
+        let law = law.into();
+        let p = &mut particles;
+        let mut states = vec![0.0; law.numbers() * p.len()];
+        for (k, (f, row)) in p.delta_f.iter().zip(states.chunks_exact_mut(law.numbers())).enumerate() {
             let j = space::determinant(f);
             check_jacobian(j).map_err(|fault| Error::Breakdown { time: 0.0, step: 0, particle: p.id[k], fault })?;
-            let (stress, state) = body.law.at_rest(&space::embed(f));
-            body.states.push(state);
-            (p.jacobian[k], p.stress[k]) = (j, stress);
+            (p.jacobian[k], p.stress[k]) = (j, law.at_rest(&space::embed(f), row));
             p.volume[k] = j * p.reference_volume[k];
         }
-        Ok(body)
+        Ok(Self { law, particles, states })
     }
 
-    /// State of every particle.
-    pub(crate) fn states(&self) -> &[M::State] {
-        &self.states
+    /// State of a particle, by its place in the columns.
+    pub(crate) fn state(&self, p: usize) -> &[f64] {
+        let n = self.law.numbers();
+        &self.states[p * n..(p + 1) * n]
     }
 
     /// Least density of the undeformed material (kg/m³).
@@ -57,21 +57,30 @@ impl<const D: usize, M: Law> Body<D, M> {
     /// Greatest [`Law::wave_modulus`] of its particles (Pa).
     pub fn wave_modulus(&self) -> f64 {
         let p = &self.particles;
-        let columns = p.jacobian.iter().zip(&p.stress).zip(&self.states);
-        let moduli = columns.map(|((j, stress), state)| {
-            let state = M::State::pack::<f64>(|_| *state);
-            self.law.wave_modulus(*j, stress, &state)
-        });
+        let columns = p.jacobian.iter().zip(&p.stress).enumerate();
+        let moduli = columns.map(|(k, (j, stress))| self.law.wave_modulus(*j, stress, self.state(k)));
         moduli.fold(0.0, f64::max)
     }
 
     /// Stress and state of the particles after the deformation ΔF̄ of their `delta_f` over `dt` (s), Eq. (22), and
-    /// their volume, Eq. (15).
+    /// their volume, Eq. (15): eight of them side by side, and those that are left over one by one.
     pub fn update_stress(&mut self, dt: f64) {
-        let (law, p) = (&self.law, &mut self.particles);
-        let delta_f = &p.delta_f;
-        let update = |k| space::embed(&delta_f[k]);
-        law.update_all(update, dt, &mut self.states, &mut p.stress);
+        let (law, p, n) = (&self.law, &mut self.particles, self.law.numbers());
+        let (wholes, rest) = p.delta_f.as_chunks();
+        for (k, rows) in self.states.chunks_mut(EIGHT * n).enumerate() {
+            match wholes.get(k) {
+                Some(delta_f) => {
+                    let delta_f = matrix_entries(delta_f);
+                    let stresses = &mut p.stress[k * EIGHT..];
+                    law.update_eight(delta_f.as_flattened(), dt, numbers(&p.jacobian, k), rows, stresses);
+                }
+                None => {
+                    for (l, (f, row)) in rest.iter().zip(rows.chunks_exact_mut(n)).enumerate() {
+                        p.stress[k * EIGHT + l] = law.update_one(&space::embed(f), dt, row);
+                    }
+                }
+            }
+        }
         let columns = p.jacobian.iter().zip(&p.reference_volume);
         for (volume, (j, reference)) in p.volume.iter_mut().zip(columns) {
             *volume = j * reference;
@@ -79,12 +88,12 @@ impl<const D: usize, M: Law> Body<D, M> {
     }
 
     /// All particles, for threads to share in chunks.
-    pub fn chunk(&mut self) -> Chunk<'_, D, M> {
+    pub fn chunk(&mut self) -> Chunk<'_, D> {
         let p = &mut self.particles;
         Chunk {
-            law: &self.law,
             begin: 0,
-            states: &mut self.states,
+            states: Rows { numbers: &mut self.states, width: self.law.numbers() },
+            law: self.law.as_ref(),
             position: &mut p.position,
             velocity: &mut p.velocity,
             affine: &mut p.affine,
@@ -100,19 +109,19 @@ impl<const D: usize, M: Law> Body<D, M> {
 
     /// Mass, momentum, energies and J, with what was `accumulated`.
     pub fn totals(&self, accumulated: Accumulated) -> Totals {
-        Totals::of(&self.law, &self.particles, &self.states, accumulated)
+        let energy = |p| self.law.energy(self.state(p));
+        Totals::of(&self.particles, energy, accumulated)
     }
 
     /// Equivalent plastic strain of every particle.
     pub fn plastic_strain(&self) -> Vec<f64> {
-        let strain = |state| self.law.plastic_strain(state);
-        self.states.iter().map(strain).collect()
+        (0..self.particles.len()).map(|p| self.law.plastic_strain(self.state(p))).collect()
     }
 
     /// Puts the particles in the order `order`: entry `k` becomes the former entry `order[k]`.
     pub fn permute(&mut self, order: &[u32]) {
         self.particles.permute(order);
-        permute(&mut self.states, order);
+        permute_rows(&mut self.states, order, self.law.numbers());
     }
 
     /// Particles and states as bytes.
@@ -142,13 +151,13 @@ impl<const D: usize, M: Law> Body<D, M> {
         saved: &Saved,
         check: impl FnOnce(&Particles<D>) -> Result<(), MemoryError>,
     ) -> Result<(), MemoryError> {
-        let (mut particles, mut states): (Particles<D>, Vec<M::State>) = saved.read("a body")?;
-        MemoryError::unless_equal("states", states.len(), particles.len())?;
+        let (mut particles, mut states): (Particles<D>, Vec<f64>) = saved.read("a body")?;
+        MemoryError::unless_equal("numbers of states", states.len(), self.law.numbers() * particles.len())?;
         if particles.len() > self.particles.len() {
             particles.check_whole()?;
             let order = particles.first(self.particles.len());
             particles.permute(&order);
-            permute(&mut states, &order);
+            permute_rows(&mut states, &order, self.law.numbers());
         }
         particles.go_on_as(&self.particles);
         self.replace((particles, states), check)
@@ -156,11 +165,11 @@ impl<const D: usize, M: Law> Body<D, M> {
 
     fn replace(
         &mut self,
-        (particles, states): (Particles<D>, Vec<M::State>),
+        (particles, states): (Particles<D>, Vec<f64>),
         check: impl FnOnce(&Particles<D>) -> Result<(), MemoryError>,
     ) -> Result<(), MemoryError> {
         particles.check_against(&self.particles)?;
-        MemoryError::unless_equal("states", states.len(), self.states.len())?;
+        MemoryError::unless_equal("numbers of states", states.len(), self.states.len())?;
         check(&particles)?;
         (self.particles, self.states) = (particles, states);
         Ok(())
@@ -168,13 +177,13 @@ impl<const D: usize, M: Law> Body<D, M> {
 }
 
 /// Some particles of a body: a slice of all columns; absent columns give empty slices.
-pub struct Chunk<'a, const D: usize, M: Law> {
+pub struct Chunk<'a, const D: usize> {
     /// The law of the material.
-    pub law: &'a M,
+    pub law: &'a dyn AnyLaw,
     /// The place of the first particle in the columns.
     pub begin: usize,
-    /// Law's states.
-    pub states: &'a mut [M::State],
+    /// The law's states.
+    pub states: Rows<'a>,
     /// Position x (m).
     pub position: &'a mut [[f64; D]],
     /// Velocity v (m/s).
@@ -197,15 +206,15 @@ pub struct Chunk<'a, const D: usize, M: Law> {
     pub external_force: &'a [[f64; D]],
 }
 
-impl<const D: usize, M: Law> Chunk<'_, D, M> {
+impl<const D: usize> Chunk<'_, D> {
     /// Number of particles.
     pub fn len(&self) -> usize {
-        self.states.len()
+        self.position.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.states.is_empty()
+        self.position.is_empty()
     }
 
     /// Asks the processor for what the `k`-th eight needs to move.
@@ -224,7 +233,7 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
     /// Prefetches what the law and the position of the `k`-th eight need.
     #[inline(always)]
     pub fn fetch_second_half(&self, k: usize) {
-        fetch(self.states, k);
+        fetch_rows(self.states.numbers, k, self.states.width);
         fetch(self.position, k);
         fetch(self.volume, k);
         fetch(self.jacobian, k);
@@ -246,7 +255,7 @@ impl<const D: usize, M: Law> Chunk<'_, D, M> {
     }
 }
 
-impl<const D: usize, M: Law> Front for Chunk<'_, D, M> {
+impl<const D: usize> Front for Chunk<'_, D> {
     fn front(&mut self, pieces: usize, size: usize) -> Self {
         let begin = self.begin;
         self.begin += self.len().min(pieces * size);
@@ -266,6 +275,18 @@ impl<const D: usize, M: Law> Front for Chunk<'_, D, M> {
             external_force: self.external_force.front(pieces, size),
         }
     }
+}
+
+/// Puts rows in the order `order`, as [`permute`] does entries.
+fn permute_rows(numbers: &mut Vec<f64>, order: &[u32], width: usize) {
+    let before = numbers.clone();
+    numbers.truncate(width * order.len());
+    let rows = Rows { numbers, width };
+    for_each_piece((rows, order), order.len(), CHUNK, &|_, (rows, order)| {
+        for (row, p) in rows.numbers.chunks_exact_mut(width).zip(order) {
+            row.copy_from_slice(&before[*p as usize * width..][..width]);
+        }
+    });
 }
 
 /// Checks that a Jacobian is positive and finite.

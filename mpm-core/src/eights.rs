@@ -45,14 +45,21 @@ impl<'a, T: Copy> Eights<'a, T> {
 /// Asks the processor for the `k`-th block of a column, if there is one.
 #[inline(always)]
 pub fn fetch<T>(column: &[T], k: usize) {
+    fetch_rows(column, k, 1);
+}
+
+/// The same of a column of rows that have `width` entries each.
+#[inline(always)]
+pub fn fetch_rows<T>(column: &[T], k: usize, width: usize) {
+    let size = width * EIGHT;
     #[cfg(target_arch = "x86_64")]
-    if let Some(block) = column.get(k * EIGHT..(k + 1) * EIGHT) {
+    if let Some(block) = column.get(k * size..(k + 1) * size) {
         for entry in block.iter().step_by((LINE / size_of::<T>()).max(1)) {
             safe_arch::prefetch_t0(entry);
         }
     }
     #[cfg(not(target_arch = "x86_64"))]
-    let _ = (column, k);
+    let _ = (column, k, size);
 }
 
 /// Bytes that memory gives at once.

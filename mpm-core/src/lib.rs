@@ -48,7 +48,7 @@
 //!         .constrain(Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed });
 //!     let settings = Settings::new(dt).remedy(Box::new(Fbar::new(Form::Consistent)));
 //!     // Three quadratic splines are non-zero at a point.
-//!     let mut solver = Solver::<2, 3, QuadraticBSpline, _>::new(scene, settings)?;
+//!     let mut solver = Solver::<2, 3, QuadraticBSpline>::new(scene, settings)?;
 //!     while solver.time() < 0.05 {
 //!         solver.step()?;
 //!     }

@@ -62,6 +62,20 @@ impl<A: Front, B: Front> Front for (A, B) {
     }
 }
 
+/// Rows of numbers, one an entry.
+pub struct Rows<'a> {
+    /// The rows, one after the other.
+    pub numbers: &'a mut [f64],
+    /// How many numbers a row has.
+    pub width: usize,
+}
+
+impl Front for Rows<'_> {
+    fn front(&mut self, pieces: usize, size: usize) -> Self {
+        Self { numbers: self.numbers.front(pieces, size * self.width), width: self.width }
+    }
+}
+
 /// One entry a piece: what is summed over it.
 pub struct PerPiece<'a, T>(pub &'a mut [T]);
 

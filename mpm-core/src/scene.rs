@@ -5,7 +5,6 @@ use crate::contact::RigidContact;
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;
-use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::stage::{Constraint, Load};
 
@@ -19,11 +18,11 @@ pub enum Part {
 }
 
 /// A grid, a body on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
-pub struct Scene<const D: usize, M: Law> {
+pub struct Scene<const D: usize> {
     /// The grid.
     pub grid: Grid<D>,
     /// The body.
-    pub body: Body<D, M>,
+    pub body: Body<D>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
     /// Constraints. Their places are those of [`Part::Constraint`].
@@ -35,10 +34,10 @@ pub struct Scene<const D: usize, M: Law> {
 /// Memories of the loads, constraints and contacts of a scene.
 pub(crate) type SavedStages = (Vec<Saved>, Vec<Saved>, Vec<Saved>);
 
-impl<const D: usize, M: Law> Scene<D, M> {
+impl<const D: usize> Scene<D> {
     /// `body` on `grid`, left to itself.
     #[must_use]
-    pub fn new(grid: Grid<D>, body: Body<D, M>) -> Self {
+    pub fn new(grid: Grid<D>, body: Body<D>) -> Self {
         Self { grid, body, loads: Vec::new(), constraints: Vec::new(), contacts: Vec::new() }
     }
 

@@ -33,11 +33,13 @@ pub(crate) use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 pub(crate) use mpm_core::explicit::courant_time_step;
 pub(crate) use mpm_core::explicit::transfer::Flip;
 pub(crate) use mpm_core::implicit::Stabilisation;
-pub(crate) use mpm_core::material::{Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength};
+pub(crate) use mpm_core::material::{
+    Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, SharedLaw, Strength,
+};
 pub(crate) use mpm_core::poro::{Conductivity, Water};
 pub(crate) use mpm_core::stage::{End, Gravity, Wall, WallKind};
 pub(crate) use mpm_core::{Axis, Body, Error as Fault, Field, Grid, Part, Particles, Scene, Side, Simulation};
-pub(crate) use mpm_solvers::{Solvable, Solved};
+pub(crate) use mpm_solvers::Solvable;
 pub(crate) use serde::{Deserialize, Serialize};
 pub(crate) use std::collections::BTreeMap;
 pub(crate) use std::f64::consts::{PI, SQRT_2, TAU};

@@ -5,7 +5,6 @@ use crate::basis::Basis;
 use crate::contact::Stiffest;
 use crate::error::{Error, Fault, require};
 use crate::explicit::transfer::Transfer;
-use crate::material::Law;
 
 /// The CFL number of a contact whose stiffness over mass is `ratio` (1/s²) for the time step `dt` (s) of a body of
 /// CFL number `cfl`: the greatest frequency of both together times Δt/2, at most.
@@ -13,7 +12,7 @@ pub fn contact_cfl(cfl: f64, ratio: f64, dt: f64) -> f64 {
     cfl.hypot(0.5 * dt * ratio.sqrt())
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Readies the contacts for the particles.
     pub(super) fn attach_contacts(&mut self) -> Result<(), Error> {
         let scene = &mut self.scene;

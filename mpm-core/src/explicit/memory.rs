@@ -6,14 +6,13 @@ use crate::basis::Basis;
 use crate::explicit::transfer::Transfer;
 use crate::grid::Grid;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, require, restore_all, save_all};
 use crate::parallel::SLAB;
 use crate::particles::Particles;
 use crate::scene::SavedStages;
 use std::ops::Range;
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory for Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Memory for Solver<D, S, B, T> {
     fn save(&self) -> Result<Saved, MemoryError> {
         let settings = &self.settings;
         let filters = (save_all(&settings.force_filters)?, save_all(&settings.particle_filters)?);
@@ -43,7 +42,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Memory
     }
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// The body and how it is sorted.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(self.scene.body.save()?, &self.slabs, self.drift))

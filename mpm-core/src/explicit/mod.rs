@@ -21,7 +21,6 @@ use crate::eights::entries;
 use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Reaction, Totals};
 use crate::nodes::{NodalState, Node};
@@ -57,7 +56,7 @@ struct ChunkSums {
 
 impl ChunkSums {
     /// Whether the Jacobians of the `k`-th eight of a chunk are positive and finite.
-    fn check_jacobians<const D: usize, M: Law>(&mut self, chunk: &Chunk<'_, D, M>, k: usize, j: Eight) -> bool {
+    fn check_jacobians<const D: usize>(&mut self, chunk: &Chunk<'_, D>, k: usize, j: Eight) -> bool {
         let (zero, infinity) = (Eight::ZERO, Eight::splat(f64::INFINITY));
         if (j.simd_gt(zero) & j.simd_lt(infinity)).all() {
             return true;
@@ -87,8 +86,8 @@ struct NodeSums {
 }
 
 /// The explicit solver for one body.
-pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
-    scene: Scene<D, M>,
+pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
+    scene: Scene<D>,
     settings: Settings<D, T>,
     lattice: Lattice<D, S, B>,
     slabs: Vec<Range<usize>>,
@@ -120,7 +119,7 @@ pub struct Solver<const D: usize, const S: usize, B, M: Law, T = Flip> {
     transfer_pairs: u64,
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simulation<D> for Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> for Solver<D, S, B, T> {
     fn step(&mut self) -> Result<(), Error> {
         self.apply_loads();
         self.apply_contacts()?;
@@ -193,7 +192,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Simula
     }
 }
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it is not counted.
     pub fn average(&mut self, field: &mut [f64]) {
         let particles = &self.scene.body.particles;

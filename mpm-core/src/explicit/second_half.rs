@@ -4,13 +4,11 @@ use super::remedy::force_stress;
 use super::{ChunkSums, check_cfl};
 use crate::basis::Basis;
 use crate::body::Chunk;
-use crate::eights::{Eights, block, components, entries, numbers, store, store_numbers, store_vectors};
+use crate::eights::{Eights, block, components, entries, numbers, store_numbers, store_vectors};
 use crate::grid::Grid;
-use crate::material::{Law, State};
 use crate::number::{EIGHT, Eight, Lanes};
 use crate::particles::Particles;
 use crate::room::Room;
-use crate::space::embed_entries;
 use crate::tensor::SymmetricTensor;
 use std::ops::Range;
 
@@ -58,11 +56,7 @@ impl<'a> ForceStress<'a> {
 
 /// The same of the `k`-th eight of a chunk, with the `mean` of all particles.
 #[inline(always)]
-pub(super) fn force_stress_of<const D: usize, M: Law>(
-    p: &Chunk<'_, D, M>,
-    mean: &[f64],
-    k: usize,
-) -> SymmetricTensor<Eight> {
+pub(super) fn force_stress_of<const D: usize>(p: &Chunk<'_, D>, mean: &[f64], k: usize) -> SymmetricTensor<Eight> {
     let mut spare = None;
     let stress = block(p.stress, k, &mut spare);
     let stress = SymmetricTensor::pack(|l| stress[l]);
@@ -95,23 +89,20 @@ impl<const D: usize> SecondHalf<D> {
     /// `delta_f` and move by `increment` (m). A particle that breaks down stays where it is, so the state can be
     /// inspected.
     #[inline(never)]
-    pub(super) fn finish<M: Law>(
+    pub(super) fn finish(
         &self,
-        p: &mut Chunk<'_, D, M>,
+        p: &mut Chunk<'_, D>,
         k: usize,
         delta_f: &[[Eight; D]; D],
         increment: &[Eight; D],
         sums: &mut ChunkSums,
     ) {
-        let mut spare = None;
-        let states = block(p.states, k, &mut spare);
-        let before = M::State::pack::<Eight>(|l| states[l]);
-        let (stress, after) = p.law.response(&embed_entries(delta_f), self.dt, &before);
-        store(p.stress, k, |l| stress.part(l));
-        store(p.states, k, |l| M::State::part::<Eight>(&after, l));
         let j = numbers(p.jacobian, k);
+        let size = EIGHT * p.states.width;
+        let here = k * size..p.states.numbers.len().min((k + 1) * size);
+        let rows = &mut p.states.numbers[here];
+        let modulus = p.law.update_eight(delta_f.as_flattened(), self.dt, j, rows, &mut p.stress[k * EIGHT..]);
         store_numbers(p.volume, k, j * numbers(p.reference_volume, k));
-        let modulus = p.law.wave_modulus(j, &stress, &after);
         sums.wave_modulus = sums.wave_modulus.fast_max(modulus);
 
         let mut x = components(block(p.position, k, &mut None));

@@ -2,7 +2,6 @@
 
 use super::{Solver, Transfer};
 use crate::basis::Basis;
-use crate::material::Law;
 use crate::nodes::NodalState;
 use crate::order::stencil_order;
 use crate::reach::Reach;
@@ -11,7 +10,7 @@ use crate::reach::Reach;
 /// and up to one each in the steps that begin and end it.
 const MOTION: f64 = 3.0;
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// After the particles' motion: sorts them when one may have left the neighbours of the cell where it was.
     pub(super) fn sort_if_needed(&mut self) {
         self.space.expire();

@@ -7,7 +7,6 @@ use crate::basis::Basis;
 use crate::eights::{AHEAD, Eights, block, blocks, components, entries, numbers, store, store_numbers, store_vectors};
 use crate::error::Error;
 use crate::lattice::Stencils;
-use crate::material::Law;
 use crate::monitor::Residual;
 use crate::nodes::{NodalState, Node, padded};
 use crate::number::{EIGHT, Eight};
@@ -16,7 +15,7 @@ use crate::projection::Projection;
 use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     pub(super) fn move_constraints(&mut self) {
         let middle = self.ledger.time + 0.5 * self.settings.dt;

@@ -6,7 +6,6 @@ use crate::basis::Basis;
 use crate::error::{Error, positive};
 use crate::lattice::Lattice;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::nodes::{NodalState, Node};
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::space;
@@ -15,13 +14,13 @@ use crate::room::Room;
 use crate::scene::Scene;
 use crate::stage::{Prescribed, require_held};
 
-impl<const D: usize, const S: usize, B: Basis<S>, M: Law, T: Transfer<D>> Solver<D, S, B, M, T> {
+impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
     /// A time step or particle that is not allowed; a particle off the grid; a time step beyond the CFL limit; a
     /// particle in a rigid body; a constraint that holds no node of its own.
-    pub fn new(mut scene: Scene<D, M>, mut settings: Settings<D, T>) -> Result<Self, Error> {
+    pub fn new(mut scene: Scene<D>, mut settings: Settings<D, T>) -> Result<Self, Error> {
         positive(settings.dt, "time step", "positive (s)")?;
         scene.check_half_size()?;
         let particles = &mut scene.body.particles;

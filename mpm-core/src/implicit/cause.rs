@@ -5,7 +5,6 @@ use super::elements::Elements;
 use super::linear::Direct;
 use super::{GHOST, Interpolation, Setting, Solver, contact};
 use crate::error::Cause;
-use crate::material::Law;
 use nalgebra::SVector;
 
 /// Inverse iterations that find the softest motion: each divides other motions by the ratio of their stiffnesses.
@@ -55,7 +54,7 @@ fn in_space<const D: usize>(x: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|a| x.get(a).copied().unwrap_or(f64::NAN))
 }
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// The factors of the stiffness at the last equilibrium.
     fn factors(&self, setting: &Setting<D>) -> Option<Direct> {
         let pattern = &setting.pattern;

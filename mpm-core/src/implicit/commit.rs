@@ -7,13 +7,12 @@ use super::equilibrium::{Step, Trial};
 use super::failure::Failure;
 use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
-use crate::material::Law;
 use crate::monitor::Residual;
 use crate::room::Room;
 use crate::space::{determinant, stretch_of_volume};
 use nalgebra::SVector;
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// The trial at the end of a step, where the equations hold elsewhere.
     pub(super) fn end_of_step(
         &mut self,

@@ -8,7 +8,6 @@ use super::elements::Elements;
 use super::{Interpolation, Remedy, Solver};
 use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::error::{Error, Fault, require};
-use crate::material::Law;
 use crate::particles::Particles;
 use crate::scene::Scene;
 use nalgebra::{SMatrix, SVector};
@@ -156,9 +155,9 @@ pub(super) fn open_share<const D: usize>(
 }
 
 /// Whether the stiffness of a scene is symmetric: friction that can slip has no potential.
-pub(super) fn is_symmetric<const D: usize, M: Law>(scene: &Scene<D, M>) -> bool {
+pub(super) fn is_symmetric<const D: usize>(scene: &Scene<D>) -> bool {
     let mut frictions = scene.contacts.iter().filter_map(RigidContact::friction);
-    M::CONSERVATIVE && frictions.all(|friction| friction.coefficient().is_none())
+    scene.body.law.conservative() && frictions.all(|friction| friction.coefficient().is_none())
 }
 
 /// That a solver with `remedy` can have these contacts on `grid`.
@@ -185,7 +184,7 @@ pub(super) fn check<const D: usize>(
     Ok(())
 }
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// The contacts as they are at `time` (s).
     pub(super) fn obstacles(&self, time: f64) -> Vec<Obstacle<D>> {
         let contacts = self.scene.contacts.iter();

@@ -5,7 +5,6 @@ use super::failure::Failure;
 use super::settings::TimeRule;
 use super::system::Solution;
 use super::{Interpolation, Setting, Solver};
-use crate::material::Law;
 use nalgebra::SVector;
 
 /// Share of the heaviest node's mass below which a node's is rounding.
@@ -14,7 +13,7 @@ const WEIGHTLESS: f64 = 1e-12;
 /// A field on the nodes.
 type Field<const D: usize> = Vec<SVector<f64, D>>;
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// Gives the particles the velocities at the end of a step of `dt` (s), under the `external` forces (N) where the
     /// equations hold.
     ///
@@ -92,7 +91,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             return Ok(());
         };
         let (elements, mass) = (&setting.elements, &inertia.mass);
-        let step: Step<D, M> = setting.step(&self.scene.body, dt);
+        let step: Step<D> = setting.step(&self.scene.body, dt);
         let penalty = step.penalty_forces(&solution.trial.u);
         let forces = solution.trial.internal.iter().zip(&penalty).zip(external);
         let impulse: Field<D> = forces.map(|((f, g), e)| (e - f - g) * dt).collect();

@@ -10,7 +10,6 @@ use super::response::{Particle, Square, Tangent};
 use super::unknowns::{Pattern, Unknowns};
 use crate::body::{Body, check_jacobian};
 use crate::error::Fault;
-use crate::material::Law;
 use crate::parallel::{LIGHT, map};
 use crate::space::{determinant, embed};
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -23,8 +22,8 @@ const REGULAR: f64 = 1e-14;
 const BATCH: usize = 256;
 
 /// A step of a body: what stays as it is at its start.
-pub(super) struct Step<'a, const D: usize, M: Law> {
-    pub(super) body: &'a Body<D, M>,
+pub(super) struct Step<'a, const D: usize> {
+    pub(super) body: &'a Body<D>,
     pub(super) dt: f64,
     pub(super) elements: &'a Elements<D>,
     pub(super) unknowns: &'a Unknowns<D>,
@@ -55,17 +54,17 @@ pub(super) struct Trial<const D: usize> {
     pub(super) resistance: Vec<SVector<f64, D>>,
 }
 
-impl<const D: usize, M: Law> Step<'_, D, M> {
+impl<const D: usize> Step<'_, D> {
     /// A particle at the start of the step.
-    fn particle(&self, p: usize) -> Particle<'_, M> {
+    fn particle(&self, p: usize) -> Particle<'_> {
         let particles = &self.body.particles;
         let j = match self.average {
             None => particles.jacobian[p],
             Some(_) => particles.j_bar[p],
         };
         Particle {
-            law: &self.body.law,
-            state: &self.body.states()[p],
+            law: self.body.law.as_ref(),
+            state: self.body.state(p),
             dt: self.dt,
             volume: particles.reference_volume[p] * j,
         }

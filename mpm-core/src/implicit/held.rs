@@ -2,7 +2,6 @@
 
 use super::interpolation::Interpolation;
 use crate::error::{Error, require};
-use crate::material::Law;
 use crate::scene::Scene;
 use crate::stage::{Bound, Constraint, require_held};
 
@@ -31,9 +30,9 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
 ///
 /// # Errors
 /// A constraint holds nothing.
-pub(crate) fn components<const D: usize, I: Interpolation<D>, M: Law>(
+pub(crate) fn components<const D: usize, I: Interpolation<D>>(
     functions: &I,
-    scene: &Scene<D, M>,
+    scene: &Scene<D>,
 ) -> Result<Vec<[Option<Held>; D]>, Error> {
     let mut held = vec![[None; D]; functions.len()];
     functions.for_each_node(|node, position| {

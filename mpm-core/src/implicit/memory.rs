@@ -6,13 +6,12 @@ use super::unknowns::Pattern;
 use super::{Interpolation, Solver, contact};
 use crate::grid::Grid;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, require};
 use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::SavedStages;
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Memory for Solver<D, I> {
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(
             self.scene.body.save()?,
@@ -39,7 +38,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Memory for Solver<D, I, M> {
     }
 }
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// Replaces the body by one that was saved, all of whose particles must be on the grid.
     fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let grid = *self.functions.grid();

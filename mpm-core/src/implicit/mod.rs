@@ -47,7 +47,6 @@ pub use settings::{GHOST, Remedy, Settings, Stabilisation, TimeRule};
 use crate::body::Body;
 use crate::error::{Cause, Error};
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Reaction, Totals};
 use crate::parallel::{LIGHT, map};
@@ -81,8 +80,8 @@ fn steps_of_load<const D: usize>(earlier: &[SVector<f64, D>], loads: &[SVector<f
 }
 
 /// The quasi-static solver for one body on the functions `I`.
-pub struct Solver<const D: usize, I, M: Law> {
-    scene: Scene<D, M>,
+pub struct Solver<const D: usize, I> {
+    scene: Scene<D>,
     settings: Settings,
     functions: I,
     /// Original of every node.
@@ -107,7 +106,7 @@ struct Setting<const D: usize> {
     obstacles: Vec<Obstacle<D>>,
 }
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Simulation<D> for Solver<D, I> {
     /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.settings.dt);
@@ -192,7 +191,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Simulation<D> for Solver<D, I,
 
 impl<const D: usize> Setting<D> {
     /// The equations of a step of `dt` (s) of the body that this setting was made for.
-    fn step<'a, M: Law>(&'a self, body: &'a Body<D, M>, dt: f64) -> Step<'a, D, M> {
+    fn step<'a>(&'a self, body: &'a Body<D>, dt: f64) -> Step<'a, D> {
         Step {
             body,
             dt,
@@ -206,7 +205,7 @@ impl<const D: usize> Setting<D> {
     }
 }
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
@@ -264,7 +263,7 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
             return Vec::new();
         }
         let u: Vec<[f64; D]> = self.advance.iter().map(|rate| rate.map(|rate| rate * dt)).collect();
-        let stress = |p: usize, f: &Matrix3<f64>| body.law.update(f, dt, &body.states()[p]).0.to_matrix();
+        let stress = |p: usize, f: &Matrix3<f64>| body.law.stress(f, dt, body.state(p)).to_matrix();
         let deviator = |m: Matrix3<f64>| (m - Matrix3::identity() * (m.trace() / 3.0)).norm();
         map(body.particles.len(), LIGHT, |p| {
             let f = embed(&elements.deformation(p, &u));

@@ -4,7 +4,7 @@
 //! node's force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A
 //! ΔJ, F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
 
-use crate::material::{Law, State};
+use crate::material::{AnyLaw, Asked};
 use crate::number::{Dual, Real};
 use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
@@ -13,11 +13,11 @@ use nalgebra::{Matrix3, SMatrix};
 pub(crate) const MOST: usize = 9;
 
 /// A particle at the start of a step.
-pub(super) struct Particle<'a, M: Law> {
+pub(super) struct Particle<'a> {
     /// The law.
-    pub(super) law: &'a M,
+    pub(super) law: &'a dyn AnyLaw,
     /// State of the law.
-    pub(super) state: &'a M::State,
+    pub(super) state: &'a [f64],
     /// Duration of the step (s).
     pub(super) dt: f64,
     /// V⁰ J, with F̄ V⁰ J̄ (m³), at the start.
@@ -77,28 +77,27 @@ fn stretch<T: Real, const D: usize>(x: T) -> T {
     }
 }
 
-impl<M: Law> Particle<'_, M> {
+impl Particle<'_> {
     /// The answer to `f`, completed to three dimensions, and with F̄ to the averaged change of volume.
     #[inline]
-    pub(super) fn respond<T: Real, const D: usize>(&self, f: &Matrix3<T>, averaged: Option<T>) -> Response<T> {
+    pub(super) fn respond<T: Asked, const D: usize>(&self, f: &Matrix3<T>, averaged: Option<T>) -> Response<T> {
         let mut cofactor = [T::default(); MOST];
         for i in 0..D {
             for j in 0..D {
                 cofactor[D * i + j] = minor(f, i, j);
             }
         }
-        let state = M::State::pack::<T>(|_| *self.state);
         let mut answer = Response { stress: [T::default(); MOST], pull: T::default(), cofactor };
         let mut scale = T::splat(self.volume);
         let mut pressure = T::default();
         let cauchy = match averaged {
-            None => self.law.response(f, self.dt, &state).0,
+            None => T::stress(self.law, f, self.dt, self.state),
             Some(averaged) => {
                 let ratio = averaged / determinant(f);
                 let stretch = stretch::<T, D>(ratio);
                 let in_plane = |i: usize, j: usize| i < D && j < D;
                 let scaled = Matrix3::from_fn(|i, j| if in_plane(i, j) { stretch * f[(i, j)] } else { f[(i, j)] });
-                let cauchy = self.law.response(&scaled, self.dt, &state).0;
+                let cauchy = T::stress(self.law, &scaled, self.dt, self.state);
                 for a in 0..D {
                     pressure += cauchy.get(a, a);
                 }
@@ -136,7 +135,10 @@ impl<M: Law> Particle<'_, M> {
         f: &SMatrix<f64, D, D>,
         averaged: Option<f64>,
         share: f64,
-    ) -> Tangent<D> {
+    ) -> Tangent<D>
+    where
+        Dual<N>: Asked,
+    {
         let averaged = averaged.map(|a| Dual::variable(a, D * D));
         let answer = self.respond::<_, D>(&variables::<D, N>(f), averaged);
         let mut tangent = Tangent {

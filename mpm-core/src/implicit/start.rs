@@ -2,36 +2,37 @@
 
 use super::held;
 use super::linear::Direct;
+use super::response::variables;
 use super::{Interpolation, Moduli, Remedy, Settings, Solver, Stabilisation, TimeRule, contact};
 use crate::error::{Error, require};
 use crate::ledger::Ledger;
-use crate::material::Law;
+use crate::material::AnyLaw;
 use crate::monitor::Convergence;
 use crate::room::Room;
 use crate::scene::Scene;
 use nalgebra::Matrix3;
 
-impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions do not offer; F̄ with a law that is
     /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only
     /// or that holds no node of its own; a particle off the grid.
-    pub fn new(mut scene: Scene<D, M>, settings: Settings) -> Result<Self, Error> {
+    pub fn new(mut scene: Scene<D>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
         let averages = settings.remedy != Remedy::None;
         require(
-            M::CONSERVATIVE || !averages,
+            scene.body.law.conservative() || !averages,
             "variational F-bar with a law without a potential",
             1.0,
             "remedy none: the law has a rate of stress or a viscosity",
         )?;
         let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
-        let moduli = moduli_of(&scene.body.law, settings.dt);
+        let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
         let inertia_alone = settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
         require(
             moduli.mu > 0.0 || inertia_alone,
@@ -85,7 +86,9 @@ impl<const D: usize, I: Interpolation<D>, M: Law> Solver<D, I, M> {
 }
 
 /// Lamé's parameters of undeformed material, from the law's tangent.
-pub(crate) fn moduli_of<M: Law>(law: &M, dt: f64) -> Moduli {
-    let tangent = law.tangent(&Matrix3::identity(), dt, &law.initial_state());
+pub(crate) fn moduli_of(law: &dyn AnyLaw, dt: f64) -> Moduli {
+    let mut row = vec![0.0; law.numbers()];
+    law.at_rest(&Matrix3::identity(), &mut row);
+    let tangent = law.derive_ten(&variables::<3, 10>(&Matrix3::identity()), dt, &row);
     Moduli { lambda: tangent.xx.slope[4], mu: tangent.xy.slope[1] }
 }

@@ -10,7 +10,6 @@ use super::settings::Settings;
 use super::unknowns::Pattern;
 use crate::error::Fault;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::monitor::Convergence;
 use crate::work::clocked;
 use nalgebra::SVector;
@@ -35,8 +34,8 @@ pub(super) struct Solution<const D: usize> {
 }
 
 /// Equations of a step with the loads at its end, and the means to solve them.
-pub(super) struct System<'a, const D: usize, M: Law> {
-    pub(super) step: Step<'a, D, M>,
+pub(super) struct System<'a, const D: usize> {
+    pub(super) step: Step<'a, D>,
     pub(super) settings: &'a Settings,
     /// Norm of the residual (N) that rounding of the stresses leaves.
     pub(super) rounding: f64,
@@ -50,7 +49,7 @@ pub(super) struct System<'a, const D: usize, M: Law> {
     pub(super) start: f64,
 }
 
-impl<const D: usize, M: Law> Equations for System<'_, D, M> {
+impl<const D: usize> Equations for System<'_, D> {
     type Trial = Trial<D>;
     const MOST_CUTS: u32 = 12;
 
@@ -106,7 +105,7 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
     }
 }
 
-impl<const D: usize, M: Law> System<'_, D, M> {
+impl<const D: usize> System<'_, D> {
     /// A trial of these increments.
     fn trial(&mut self, u: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
         let ledger = &mut *self.linear.ledger;

@@ -6,6 +6,7 @@ use crate::fixture::Affine;
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
+use crate::material::{Law, shared};
 use crate::memory::Memory;
 use crate::space::embed;
 use crate::stage::{BodyForce, End, Wall, WallKind};
@@ -49,12 +50,12 @@ enum Places {
 }
 
 /// A box of `cells` cells along each axis, two particles a cell and axis, that fills a grid between walls.
-fn full<const D: usize, M: Law>(cells: usize, places: Places, law: M) -> Scene<D, M> {
+fn full<const D: usize, M: Law + 'static>(cells: usize, places: Places, law: M) -> Scene<D> {
     filled([Axis::walls(0.0, cells); D], cells, places, law)
 }
 
 /// The same on a grid of `axes`.
-fn filled<const D: usize, M: Law>(axes: [Axis; D], cells: usize, places: Places, law: M) -> Scene<D, M> {
+fn filled<const D: usize, M: Law + 'static>(axes: [Axis; D], cells: usize, places: Places, law: M) -> Scene<D> {
     let grid = Grid::new(H, axes).unwrap();
     let off = match places {
         Places::Uniform => 0.25,
@@ -66,7 +67,7 @@ fn filled<const D: usize, M: Law>(axes: [Axis; D], cells: usize, places: Places,
         (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| at(k / along.pow(a as u32) % along))).collect();
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
-    Scene::new(grid, Body::new(law, particles).unwrap())
+    Scene::new(grid, Body::new(shared(law), particles).unwrap())
 }
 
 fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
@@ -75,7 +76,7 @@ fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
 }
 
 /// The stresses after one step of the particles that lie within `radius` (m) of the centre, which is affine too.
-fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
+fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone + 'static>(
     law: &M,
     gradient: SMatrix<f64, D, D>,
     radius: f64,
@@ -88,9 +89,9 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
     let within = places.filter(|x| from_centre(x).norm() <= radius);
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
-    scene.body = Body::new(law.clone(), some).unwrap();
+    scene.body = Body::new(shared(law.clone()), some).unwrap();
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).stabilised(stabilisation) };
-    let mut solver = Solver::<D, I, M>::new(scene.constrain(Affine { gradient, centre: CENTRE }), settings).unwrap();
+    let mut solver = Solver::<D, I>::new(scene.constrain(Affine { gradient, centre: CENTRE }), settings).unwrap();
     solver.step().unwrap();
     // Parts of an affine motion, one after the other, are another one.
     assert_eq!(solver.convergence().unwrap().parts, 1);
@@ -103,7 +104,7 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone>(
 }
 
 /// An affine field at the boundary is one inside, with the stress of its law everywhere.
-fn reproduces_affine_fields<const D: usize, I: Interpolation<D>, M: Law + Clone>(law: &M) {
+fn reproduces_affine_fields<const D: usize, I: Interpolation<D>, M: Law + Clone + 'static>(law: &M) {
     // Shrinks, so that the body stays on the grid.
     let gradient = SMatrix::from_fn(|i, j| 0.01 * (i as f64 - 0.7 * j as f64) - if i == j { 0.08 } else { 0.0 });
     let f = embed(&(SMatrix::<f64, D, D>::identity() + gradient));
@@ -126,7 +127,7 @@ fn affine_fields_pass_the_patch_test() {
 }
 
 /// A turn by a tenth of a radian, in one step.
-fn turns_without_stress<const D: usize, I: Interpolation<D>, M: Law + Clone>(law: &M) {
+fn turns_without_stress<const D: usize, I: Interpolation<D>, M: Law + Clone + 'static>(law: &M) {
     let (sin, cos) = 0.1_f64.sin_cos();
     let mut gradient = SMatrix::<f64, D, D>::zeros();
     (gradient[(0, 0)], gradient[(1, 1)]) = (cos - 1.0, cos - 1.0);
@@ -146,7 +147,7 @@ fn a_rigid_turn_gives_no_stress() {
 }
 
 /// The box stands on a floor between rollers and is compressed by `weight` (N/m³).
-fn standing<const D: usize, M: Law>(cells: usize, places: Places, law: M, weight: f64) -> Scene<D, M> {
+fn standing<const D: usize, M: Law + 'static>(cells: usize, places: Places, law: M, weight: f64) -> Scene<D> {
     let rollers = (0..D).map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let axis = Axis::bounded(0.0, cells + 2, (Side::Wall, Side::Open));
     filled([axis; D], cells, places, law).constrain_all(rollers).load(BodyForce(Box::new(move |_, t| {
@@ -163,7 +164,7 @@ fn newton_converges_quadratically() {
     let settings = Settings { tolerance: 1e-11, ..Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01)) };
     for remedy in [Remedy::None, Remedy::Bbar, Remedy::FbarConsistent] {
         let scene = standing::<2, _>(4, Places::Uniform, NeoHookean::new(YOUNG, POISSON).unwrap(), 1e4);
-        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings.remedy(remedy)).unwrap();
+        let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings.remedy(remedy)).unwrap();
         solver.step().unwrap();
         let convergence = solver.convergence().unwrap();
         assert_eq!(convergence.parts, 1);
@@ -205,7 +206,7 @@ fn bar_error<I: Interpolation<1>>(cells: usize) -> f64 {
     let law = NeoHookean::new(YOUNG, 0.0).unwrap();
     let (height, weight) = (H * cells as f64, 0.3 * YOUNG / (H * cells as f64));
     let scene = standing::<1, _>(cells, Places::Gauss, law, weight);
-    let mut solver = Solver::<1, I, _>::new(scene, Settings::new(1.0)).unwrap();
+    let mut solver = Solver::<1, I>::new(scene, Settings::new(1.0)).unwrap();
     solver.step().unwrap();
     assert_eq!(solver.convergence().unwrap().parts, 1);
     let p = solver.particles();
@@ -227,7 +228,7 @@ fn a_bar_sinks_under_its_weight_as_exactly() {
     }
 }
 
-fn bits<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -> Vec<u64> {
+fn bits<const D: usize, I: Interpolation<D>>(solver: &Solver<D, I>) -> Vec<u64> {
     let p = solver.particles();
     let stress = p.stress.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy]);
     let places = p.position.iter().flatten().copied();
@@ -235,7 +236,7 @@ fn bits<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -
 }
 
 /// Ground between walls that yields.
-fn ground() -> Scene<2, HenckyJ2> {
+fn ground() -> Scene<2> {
     let strength = Strength::softening(2e3, 1e3, 1.0).unwrap();
     let law = HenckyJ2::new(YOUNG, POISSON, strength).unwrap();
     let axes = [Axis::walls(0.0, 8), Axis::bounded(0.0, 10, (Side::Wall, Side::Open))];
@@ -243,13 +244,13 @@ fn ground() -> Scene<2, HenckyJ2> {
     filled(axes, 8, Places::Uniform, law).constrain_all([roller(0, End::Lo), roller(0, End::Hi), roller(1, End::Lo)])
 }
 
-fn in_two_steps(scene: Scene<2, HenckyJ2>, remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
+fn in_two_steps(scene: Scene<2>, remedy: Remedy) -> Solver<2, Quadratics<2>> {
     let settings = Settings::new(0.5).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
     Solver::new(scene, settings).unwrap()
 }
 
 /// The ground under its weight.
-fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>, HenckyJ2> {
+fn loaded(remedy: Remedy) -> Solver<2, Quadratics<2>> {
     let weight = BodyForce(Box::new(|_, t| [0.0, -4.0 * t]));
     in_two_steps(ground().load(weight), remedy)
 }
@@ -291,7 +292,7 @@ fn reactions_balance_the_weight() {
     let law = NeoHookean::new(YOUNG, POISSON).unwrap();
     let scene = standing::<2, _>(4, Places::Uniform, law, 1e3);
     let mut solver =
-        Solver::<2, Quadratics<2>, _>::new(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))).unwrap();
+        Solver::<2, Quadratics<2>>::new(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(0.01))).unwrap();
     solver.step().unwrap();
     let weight = 1e3 * (4.0 * H).powi(2);
     assert!((solver.on(Part::Constraint(1)).force[1] / -weight - 1.0).abs() < 1e-8);
@@ -304,7 +305,7 @@ fn reactions_balance_the_weight() {
 }
 
 /// A body with one more particle in a cell of its own, the only one that six unknowns see.
-fn with_a_loner() -> Scene<2, Hencky> {
+fn with_a_loner() -> Scene<2> {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let axis = Axis::bounded(0.0, CELLS + 2, (Side::Wall, Side::Open));
     let mut scene = filled([axis; 2], CELLS, Places::Uniform, law);
@@ -318,7 +319,7 @@ fn with_a_loner() -> Scene<2, Hencky> {
 
 fn loner(stabilisation: Stabilisation) -> f64 {
     let settings = Settings::new(1.0).stabilised(stabilisation);
-    Solver::<2, Quadratics<2>, _>::new(with_a_loner(), settings).unwrap().condition()
+    Solver::<2, Quadratics<2>>::new(with_a_loner(), settings).unwrap().condition()
 }
 
 #[test]
@@ -340,7 +341,7 @@ fn a_ghost_penalty_spares_what_flows() {
             .constrain_all(rollers.map(|(axis, end)| Wall::new(axis, end, WallKind::Roller)))
             .load(BodyForce(Box::new(|_, t| [0.0, -t])));
         let settings = Settings::new(0.1).stabilised(Stabilisation::Ghost(GHOST));
-        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
         (0..9).for_each(|_| solver.step().unwrap());
         solver.kept_stiffness(&solver.averaging().0, 0.1)
     };
@@ -363,7 +364,7 @@ fn a_penalty_stands_for_all_steps_that_raise_the_load() {
 fn what_is_not_allowed_is_named() {
     let scene = || standing::<2, _>(4, Places::Uniform, Hencky::new(YOUNG, POISSON).unwrap(), 1e3);
     let refused = |settings: Settings, what: &str| {
-        let error = Solver::<2, Means<2>, _>::new(scene(), settings).err().unwrap();
+        let error = Solver::<2, Means<2>>::new(scene(), settings).err().unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
     refused(Settings::new(0.0), "load step");
@@ -371,11 +372,11 @@ fn what_is_not_allowed_is_named() {
     refused(Settings::new(1.0).stabilised(Stabilisation::Ghost(-1.0)), "stabilisation");
     refused(Settings::new(1.0).stabilised(Stabilisation::Soft(0.01)), "ghost");
     let wall = Wall::new(0, End::Hi, WallKind::Separable);
-    let error = Solver::<2, Means<2>, _>::new(scene().constrain(wall), Settings::new(1.0));
+    let error = Solver::<2, Means<2>>::new(scene().constrain(wall), Settings::new(1.0));
     assert!(error.err().unwrap().to_string().contains("one-sided"));
     let law = Hypoelastic::new(YOUNG, POISSON, JaumannUpdate::Split).unwrap();
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
-    let error = Solver::<2, Means<2>, _>::new(standing::<2, _>(4, Places::Uniform, law, 1e3), settings);
+    let error = Solver::<2, Means<2>>::new(standing::<2, _>(4, Places::Uniform, law, 1e3), settings);
     assert!(error.err().unwrap().to_string().contains("remedy none"));
 }
 
@@ -385,7 +386,7 @@ fn no_equilibrium_is_an_error() {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let scene = full::<2, _>(4, Places::Uniform, law).load(BodyForce(Box::new(|_, _| [0.0, -1.0])));
     let settings = Settings { most_halvings: 2, ..Settings::new(1.0) };
-    let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
     let before = solver.particles().reference.clone();
     let error = solver.step().unwrap_err();
     let known = matches!(error, Error::Singular { .. } | Error::NoConvergence { .. } | Error::Breakdown { .. });

@@ -1,5 +1,6 @@
 //! Constitutive laws: pure functions (ΔF̄, Δt, state) → (σ, state′) in three dimensions.
 
+mod any;
 mod cam_clay;
 mod hencky;
 mod hencky_j2;
@@ -11,6 +12,8 @@ mod newtonian_fluid;
 mod strength;
 mod viscous;
 
+pub(crate) use any::Asked;
+pub use any::{AnyLaw, SharedLaw, shared};
 pub use cam_clay::{CamClay, CamClayState};
 pub use hencky::Hencky;
 pub use hencky_j2::HenckyJ2;
@@ -22,64 +25,75 @@ pub use newtonian_fluid::NewtonianFluid;
 pub use strength::{ElastoplasticState, Strength};
 pub use viscous::Viscous;
 
-use crate::number::{Dual, EIGHT, Eight, Lanes, Real};
+use crate::number::{Dual, Real};
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
-use serde::Serialize;
-use serde::de::DeserializeOwned;
 use std::fmt::Debug;
 
 /// State of a particle: the numbers that its law needs, and no more.
-pub trait State: Copy + Send + Sync + PartialEq + Debug + Serialize + DeserializeOwned {
+pub trait State: Copy + Send + Sync + PartialEq + Debug {
+    /// How many.
+    const NUMBERS: usize;
+
     /// The same made of numbers `T`.
     type Of<T: Real>;
 
-    /// The states `of(0)`, `of(1)`, …, as [`Real::pack`] packs numbers.
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> Self::Of<T>;
+    /// The state of the numbers `of(0)`, `of(1)`, ….
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> Self::Of<T>;
 
-    /// The `k`-th of the states.
-    fn part<T: Lanes>(of: &Self::Of<T>, k: usize) -> Self;
+    /// Gives every number with its place to `put`.
+    fn write<T: Real>(of: &Self::Of<T>, put: impl FnMut(usize, &T));
 }
 
 impl State for f64 {
+    const NUMBERS: usize = 1;
     type Of<T: Real> = T;
 
     #[inline(always)]
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> T {
-        T::pack(of)
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> T {
+        of(0)
     }
 
     #[inline(always)]
-    fn part<T: Lanes>(of: &T, k: usize) -> Self {
-        of.part(k)
+    fn write<T: Real>(of: &T, mut put: impl FnMut(usize, &T)) {
+        put(0, of);
     }
 }
 
 impl State for SymmetricTensor {
+    const NUMBERS: usize = 6;
     type Of<T: Real> = SymmetricTensor<T>;
 
     #[inline(always)]
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> SymmetricTensor<T> {
-        SymmetricTensor::pack(of)
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> SymmetricTensor<T> {
+        SymmetricTensor { xx: of(0), yy: of(1), zz: of(2), xy: of(3), yz: of(4), xz: of(5) }
     }
 
     #[inline(always)]
-    fn part<T: Lanes>(of: &SymmetricTensor<T>, k: usize) -> Self {
-        of.part(k)
+    fn write<T: Real>(of: &SymmetricTensor<T>, mut put: impl FnMut(usize, &T)) {
+        put(0, &of.xx);
+        put(1, &of.yy);
+        put(2, &of.zz);
+        put(3, &of.xy);
+        put(4, &of.yz);
+        put(5, &of.xz);
     }
 }
 
 impl<S: State> State for (S, f64) {
+    const NUMBERS: usize = S::NUMBERS + 1;
     type Of<T: Real> = (S::Of<T>, T);
 
     #[inline(always)]
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> Self::Of<T> {
-        (S::pack(|k| of(k).0), T::pack(|k| of(k).1))
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> Self::Of<T> {
+        let last = of(S::NUMBERS);
+        (S::read(of), last)
     }
 
     #[inline(always)]
-    fn part<T: Lanes>(of: &Self::Of<T>, k: usize) -> Self {
-        (S::part(&of.0, k), of.1.part(k))
+    fn write<T: Real>((state, last): &Self::Of<T>, mut put: impl FnMut(usize, &T)) {
+        S::write(state, &mut put);
+        put(S::NUMBERS, last);
     }
 }
 
@@ -89,7 +103,7 @@ pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 /// A constitutive law.
 pub trait Law: Sized + Send + Sync {
     /// State of a particle.
-    type State: State;
+    type State: State<Of<f64> = Self::State>;
 
     /// Whether the stress of a step is the derivative of a potential (a stored energy; of associated plasticity, with
     /// what flow dissipates): stiffness matrices are then symmetric.
@@ -120,35 +134,7 @@ pub trait Law: Sized + Send + Sync {
     /// [`Law::response`] of one particle.
     #[inline]
     fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> (SymmetricTensor, Self::State) {
-        let (stress, state) = self.response(delta_f, dt, &State::pack::<f64>(|_| *state));
-        (stress, State::part::<f64>(&state, 0))
-    }
-
-    /// [`Law::response`] of many particles, the `k`-th of which deforms by `delta_f(k)`: eight of them side by side,
-    /// and those that are left over one by one.
-    #[inline]
-    fn update_all(
-        &self,
-        delta_f: impl Fn(usize) -> Matrix3<f64>,
-        dt: f64,
-        states: &mut [Self::State],
-        stresses: &mut [SymmetricTensor],
-    ) {
-        let (blocks, rest) = states.as_chunks_mut::<EIGHT>();
-        let (of_blocks, of_rest) = stresses.as_chunks_mut::<EIGHT>();
-        let first_of_rest = blocks.len() * EIGHT;
-        for (block, (states, stresses)) in blocks.iter_mut().zip(of_blocks).enumerate() {
-            let each: [_; EIGHT] = std::array::from_fn(|k| delta_f(block * EIGHT + k));
-            let deformation = Matrix3::from_fn(|i, j| Eight::pack(|k| each[k][(i, j)]));
-            let before = State::pack::<Eight>(|k| states[k]);
-            let (stress, after) = self.response(&deformation, dt, &before);
-            for (k, (state, one)) in states.iter_mut().zip(stresses).enumerate() {
-                (*one, *state) = (stress.part(k), State::part::<Eight>(&after, k));
-            }
-        }
-        for (k, (state, stress)) in rest.iter_mut().zip(of_rest).enumerate() {
-            (*stress, *state) = self.update(&delta_f(first_of_rest + k), dt, state);
-        }
+        self.response(delta_f, dt, state)
     }
 
     /// The consistent tangent: the Cauchy stress σ (Pa) of [`Law::update`] and in `slope[3 i + j]` of its components
@@ -160,7 +146,9 @@ pub trait Law: Sized + Send + Sync {
     /// numbers, from this σ and ΔF of the same variables, is A.
     fn tangent(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> SymmetricTensor<Dual<9>> {
         let variables = Matrix3::from_fn(|i, j| Dual::variable(delta_f[(i, j)], 3 * i + j));
-        self.response(&variables, dt, &State::pack::<Dual<9>>(|_| *state)).0
+        let mut numbers = vec![0.0; Self::State::NUMBERS];
+        Self::State::write::<f64>(state, |i, number| numbers[i] = *number);
+        self.response(&variables, dt, &Self::State::read(|i| Dual::splat(numbers[i]))).0
     }
 
     /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that does not flow.
@@ -182,8 +170,7 @@ pub trait Law: Sized + Send + Sync {
 
     /// Speed of pressure waves (m/s) in undeformed material of the given density (kg/m³).
     fn wave_speed(&self, density: f64) -> f64 {
-        let state = State::pack::<f64>(|_| self.initial_state());
-        (self.wave_modulus(1.0, &SymmetricTensor::default(), &state) / density).sqrt()
+        (self.wave_modulus(1.0, &SymmetricTensor::default(), &self.initial_state()) / density).sqrt()
     }
 }
 

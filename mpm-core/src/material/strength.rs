@@ -2,9 +2,8 @@
 
 use super::State;
 use crate::error::{Error, positive, require};
-use crate::number::{Lanes, Real};
+use crate::number::Real;
 use crate::tensor::SymmetricTensor;
-use serde::{Deserialize, Serialize};
 
 /// Newton steps for the flow: at most this many. The function is concave, so that from the second on the
 /// iterates fall towards the root.
@@ -171,7 +170,7 @@ impl Strength {
 }
 
 /// State of a particle of a solid that yields.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElastoplasticState<T = f64> {
     /// State of the elasticity: the elastic left Cauchy–Green tensor b_e of [`HenckyJ2`](super::HenckyJ2), the Cauchy
     /// stress (Pa) of [`HypoelasticJ2`](super::HypoelasticJ2).
@@ -181,18 +180,17 @@ pub struct ElastoplasticState<T = f64> {
 }
 
 impl State for ElastoplasticState {
+    const NUMBERS: usize = 7;
     type Of<T: Real> = ElastoplasticState<T>;
 
     #[inline(always)]
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> ElastoplasticState<T> {
-        ElastoplasticState {
-            elastic: SymmetricTensor::pack(|k| of(k).elastic),
-            plastic_strain: T::pack(|k| of(k).plastic_strain),
-        }
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> ElastoplasticState<T> {
+        ElastoplasticState { plastic_strain: of(6), elastic: SymmetricTensor::read(of) }
     }
 
     #[inline(always)]
-    fn part<T: Lanes>(of: &ElastoplasticState<T>, k: usize) -> Self {
-        Self { elastic: of.elastic.part(k), plastic_strain: of.plastic_strain.part(k) }
+    fn write<T: Real>(of: &ElastoplasticState<T>, mut put: impl FnMut(usize, &T)) {
+        SymmetricTensor::write(&of.elastic, &mut put);
+        put(6, &of.plastic_strain);
     }
 }

@@ -7,13 +7,12 @@ use super::{OfHats, Solver};
 use crate::implicit::Functions;
 use crate::implicit::algebra::dot;
 use crate::implicit::failure::Failure;
-use crate::material::Law;
 use crate::monitor::Residual;
 use crate::room::Room;
 use crate::space::determinant;
 use nalgebra::SVector;
 
-impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// Makes a trial the state of the body.
     ///
     /// # Errors

@@ -6,13 +6,12 @@ use super::{OfHats, Solver, Tangent};
 use crate::implicit::linear::Direct;
 use crate::implicit::unknowns::Pattern;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::{Memory, MemoryError, Saved, require};
 use crate::monitor::WaterBalance;
 use crate::room::Room;
 use crate::scene::SavedStages;
 
-impl<const D: usize, I: OfHats<D>, M: Law> Memory for Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Memory for Solver<D, I> {
     fn save(&self) -> Result<Saved, MemoryError> {
         let of_water = (self.balance, &self.nodal_pressure);
         Saved::of(&(self.save_body()?, &self.ledger, self.scene.save_stages()?, &self.direct.pattern, of_water))
@@ -36,7 +35,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Memory for Solver<D, I, M> {
     }
 }
 
-impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// Body and pores as bytes.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(self.scene.body.save()?, &self.pores))

@@ -33,7 +33,6 @@ use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct, Linear};
 use crate::implicit::{Functions, Moduli, OfHats};
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::memory::Saved;
 use crate::monitor::{Reaction, Totals, WaterBalance};
 use crate::particles::Particles;
@@ -53,8 +52,8 @@ struct Space<I> {
 }
 
 /// The solver for one body of solid and water on functions `I` of displacement and pressure.
-pub struct Solver<const D: usize, I, M: Law> {
-    scene: Scene<D, M>,
+pub struct Solver<const D: usize, I> {
+    scene: Scene<D>,
     water: Water<D>,
     settings: Settings,
     solid_space: Space<I>,
@@ -74,7 +73,7 @@ pub struct Solver<const D: usize, I, M: Law> {
     nodal_pressure: Vec<f64>,
 }
 
-impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Simulation<D> for Solver<D, I> {
     /// A step, in parts if the whole of it finds no solution.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.duration());
@@ -159,13 +158,13 @@ impl<const D: usize, I: OfHats<D>, M: Law> Simulation<D> for Solver<D, I, M> {
     }
 }
 
-impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// Duration of the present step (s).
     fn duration(&self) -> f64 {
         self.settings.dt * self.settings.growth.powi(self.ledger.work.steps as i32)
     }
 
-    fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D, M> {
+    fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D> {
         Step { body: &self.scene.body, water: &self.water, settings: &self.settings, dt, setting }
     }
 

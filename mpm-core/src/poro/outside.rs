@@ -6,13 +6,12 @@ use super::step::Drain;
 use super::unknowns::{Place, Unknowns};
 use super::{OfHats, Solver};
 use crate::implicit::failure::Failure;
-use crate::material::Law;
 use nalgebra::SVector;
 
 /// Share of a whole that its sum may lack: rounding, and the loss of a corner.
 const LACKING: f64 = 1e-9;
 
-impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// Adds to the forces (N) on the nodes at the end of a step of `dt` (s) those of faces and plates, and finds the
     /// corners by which water leaves.
     ///

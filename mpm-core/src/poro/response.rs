@@ -7,15 +7,15 @@
 use super::settings::VolumeRate;
 use super::water::Water;
 use crate::implicit::response::{MOST, Square, minor, variables};
-use crate::material::{Law, State};
-use crate::number::{Dual, Real};
+use crate::material::{AnyLaw, Asked};
+use crate::number::Dual;
 use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
 
 /// A particle at the start of a step.
-pub(super) struct Particle<'a, const D: usize, M: Law> {
-    pub(super) law: &'a M,
-    pub(super) state: &'a M::State,
+pub(super) struct Particle<'a, const D: usize> {
+    pub(super) law: &'a dyn AnyLaw,
+    pub(super) state: &'a [f64],
     pub(super) water: &'a Water<D>,
     pub(super) rate: VolumeRate,
     /// Duration of the step (s).
@@ -50,10 +50,10 @@ pub(super) struct Slopes<const D: usize> {
     pub(super) mass_by_f: Square<D>,
 }
 
-impl<const D: usize, M: Law> Particle<'_, D, M> {
+impl<const D: usize> Particle<'_, D> {
     /// The answer to `f`, completed to three dimensions, at the pressure `p` (Pa) with the gradient `slope` (Pa/m).
     #[inline]
-    pub(super) fn respond<T: Real>(&self, f: &Matrix3<T>, p: T, slope: &[f64; D]) -> Answer<T> {
+    pub(super) fn respond<T: Asked>(&self, f: &Matrix3<T>, p: T, slope: &[f64; D]) -> Answer<T> {
         let number = T::splat;
         let mut cofactor = [[T::default(); D]; D];
         for (i, row) in cofactor.iter_mut().enumerate() {
@@ -61,8 +61,7 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
                 *entry = minor(f, i, j);
             }
         }
-        let state = M::State::pack::<T>(|_| *self.state);
-        let effective = self.law.response(f, self.dt, &state).0;
+        let effective = T::stress(self.law, f, self.dt, self.state);
         let volume = number(self.volume);
         let change = determinant(f);
         let solid = number((1.0 - self.water.porosity) / self.jacobian) / change;
@@ -110,7 +109,10 @@ impl<const D: usize, M: Law> Particle<'_, D, M> {
         if D < 3 { self.derive::<5>(f, p, slope) } else { self.derive::<10>(f, p, slope) }
     }
 
-    fn derive<const N: usize>(&self, f: &SMatrix<f64, D, D>, p: f64, slope: &[f64; D]) -> Slopes<D> {
+    fn derive<const N: usize>(&self, f: &SMatrix<f64, D, D>, p: f64, slope: &[f64; D]) -> Slopes<D>
+    where
+        Dual<N>: Asked,
+    {
         let answer = self.respond(&variables::<D, N>(f), Dual::variable(p, D * D), slope);
         let by_f =
             |of: &Dual<N>| -> Square<D> { std::array::from_fn(|k| std::array::from_fn(|l| of.slope[D * k + l])) };

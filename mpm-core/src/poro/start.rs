@@ -11,7 +11,6 @@ use crate::implicit::held;
 use crate::implicit::linear::Direct;
 use crate::implicit::start::moduli_of;
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::monitor::{Convergence, WaterBalance};
 use crate::particles::Particles;
 use crate::room::Room;
@@ -65,15 +64,15 @@ impl<I> Space<I> {
     }
 }
 
-impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
+impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// A solver of `scene`, whose pores are full of `water`, with `settings` at time zero.
     ///
     /// # Errors
     /// A setting, a property of the water or a particle that is not allowed; a contact, or a constraint on one side
     /// only or that holds no node of its own; a particle off the grid; a face without particles or in an empty cell, a
     /// plate without nodes or on nodes that something else holds.
-    pub fn new(mut scene: Scene<D, M>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
-        settings.check(M::CONSERVATIVE)?;
+    pub fn new(mut scene: Scene<D>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
+        settings.check(scene.body.law.conservative())?;
         let contacts = scene.contacts.len();
         require(
             contacts == 0,
@@ -82,7 +81,7 @@ impl<const D: usize, I: OfHats<D>, M: Law> Solver<D, I, M> {
             "none: rigid bodies are constraints in such a scene",
         )?;
         held::check(&scene.constraints)?;
-        let moduli = moduli_of(&scene.body.law, settings.dt);
+        let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
         positive(moduli.mu, "shear modulus of a body with water", "positive (Pa)")?;
         let solid_space: Space<I> = Space::on(scene.grid)?;
         let water_space: Space<I> = Space::on(grid_of_pressure(&scene.grid, settings.pressure_space)?)?;

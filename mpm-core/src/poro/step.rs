@@ -11,7 +11,6 @@ use crate::implicit::algebra::{dot, norm};
 use crate::implicit::elements::{Elements, LAST_BITS};
 use crate::implicit::response::Square;
 use crate::implicit::unknowns::Pattern;
-use crate::material::Law;
 use crate::parallel::{LIGHT, map};
 use crate::space::{determinant, embed};
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -68,8 +67,8 @@ impl Drain {
 }
 
 /// A step of a body.
-pub(super) struct Step<'a, const D: usize, M: Law> {
-    pub(super) body: &'a Body<D, M>,
+pub(super) struct Step<'a, const D: usize> {
+    pub(super) body: &'a Body<D>,
     pub(super) water: &'a Water<D>,
     pub(super) settings: &'a Settings,
     pub(super) dt: f64,
@@ -103,12 +102,12 @@ pub(super) struct Trial<const D: usize> {
     pub(super) drained: f64,
 }
 
-impl<const D: usize, M: Law> Step<'_, D, M> {
-    fn particle(&self, p: usize) -> Particle<'_, D, M> {
+impl<const D: usize> Step<'_, D> {
+    fn particle(&self, p: usize) -> Particle<'_, D> {
         let particles = &self.body.particles;
         Particle {
-            law: &self.body.law,
-            state: &self.body.states()[p],
+            law: self.body.law.as_ref(),
+            state: self.body.state(p),
             water: self.water,
             rate: self.settings.volume_rate,
             dt: self.dt,

@@ -7,7 +7,6 @@ use crate::implicit::failure::Failure;
 use crate::implicit::linear::Linear;
 use crate::implicit::newton::{self, Equations, Point};
 use crate::ledger::Ledger;
-use crate::material::Law;
 use crate::monitor::Convergence;
 use crate::work::clocked;
 use std::time::Instant;
@@ -16,8 +15,8 @@ use std::time::Instant;
 const KEPT: f64 = 0.1;
 
 /// Equations of a step, and the means to solve them.
-pub(super) struct System<'a, const D: usize, M: Law> {
-    pub(super) step: Step<'a, D, M>,
+pub(super) struct System<'a, const D: usize> {
+    pub(super) step: Step<'a, D>,
     /// Norm of the out-of-balance forces (N) that rounding leaves.
     pub(super) rounding: f64,
     pub(super) linear: Linear<'a>,
@@ -25,7 +24,7 @@ pub(super) struct System<'a, const D: usize, M: Law> {
     pub(super) scales: Vec<f64>,
 }
 
-impl<const D: usize, M: Law> Equations for System<'_, D, M> {
+impl<const D: usize> Equations for System<'_, D> {
     type Trial = Trial<D>;
     const MOST_CUTS: u32 = 16;
 
@@ -89,7 +88,7 @@ impl<const D: usize, M: Law> Equations for System<'_, D, M> {
     }
 }
 
-impl<const D: usize, M: Law> System<'_, D, M> {
+impl<const D: usize> System<'_, D> {
     /// The greater of the residuals over what the two equations balance; zero where rounding decides, and infinite of
     /// what is no number.
     fn share(&self, residual: &[f64], trial: &Trial<D>) -> f64 {

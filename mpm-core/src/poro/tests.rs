@@ -8,6 +8,7 @@ use crate::fixture::{Affine, lattice};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, ImprovedHencky};
+use crate::material::{Law, shared};
 use crate::memory::{Memory, Memoryless};
 use crate::space::embed;
 use crate::stage::{Constraint, End, Wall, WallKind};
@@ -45,10 +46,10 @@ fn kozeny_carman() -> Conductivity {
 }
 
 /// A column of two particles a cell and axis on a floor, between rollers, with room above; the last axis is upright.
-fn standing<const D: usize, M: Law>(
+fn standing<const D: usize, M: Law + 'static>(
     law: M,
     deformed: impl Fn(&[f64; D]) -> ([f64; D], SMatrix<f64, D, D>),
-) -> Scene<D, M> {
+) -> Scene<D> {
     let mut axes = [Axis::walls(0.0, WIDE); D];
     axes[D - 1] = Axis::bounded(0.0, HIGH + 2, (Side::Wall, Side::Open));
     let grid = Grid::new(H, axes).unwrap();
@@ -63,7 +64,7 @@ fn standing<const D: usize, M: Law>(
         let both = axis + 1 < D;
         [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
     });
-    Scene::new(grid, Body::new(law, particles).unwrap()).constrain_all(rollers.flatten())
+    Scene::new(grid, Body::new(shared(law), particles).unwrap()).constrain_all(rollers.flatten())
 }
 
 fn straight<const D: usize>(x: &[f64; D]) -> ([f64; D], SMatrix<f64, D, D>) {
@@ -83,7 +84,7 @@ fn uppermost<const D: usize>(x: &[f64; D]) -> bool {
 }
 
 /// A column under a traction on its top, through which its water leaves by a penalty.
-fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D, I, ImprovedHencky> {
+fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D, I> {
     let scene = standing::<D, _>(porous(), straight);
     let particles = &scene.body.particles;
     let top = (D - 1, End::Hi);
@@ -111,12 +112,13 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
+    let scene =
+        Scene::new(grid, Body::new(shared(law), particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).ghosts(0.1, 0.01) };
-    let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<D, I>::new(scene, water, settings).unwrap();
     solver.step().unwrap();
     let exact = law.update(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();
     let p = solver.particles();
@@ -164,7 +166,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
             .drained(|x| x[D - 1] > TOP - 1e-9);
         let scene = standing::<D, _>(porous(), straight);
         let settings = Settings::new(1.0).pressure_space(space).tangent(tangent);
-        let mut solver = Solver::<D, I, _>::new(scene, water, settings).unwrap();
+        let mut solver = Solver::<D, I>::new(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
         let p = solver.particles();
         for k in 0..p.len() {
@@ -189,7 +191,7 @@ fn hydrostatic_water_stays_at_rest() {
 fn what_is_not_allowed_is_refused_by_name() {
     let column = || standing::<1, _>(porous(), straight);
     let refused = |water: Water<1>, settings: Settings, what: &str| {
-        let error = Solver::<1, Means<1>, _>::new(column(), water, settings).err().unwrap();
+        let error = Solver::<1, Means<1>>::new(column(), water, settings).err().unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
     let some = Conductivity::Constant(KAPPA);
@@ -201,7 +203,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(POROSITY, dry).drained(|_| true), settings, "conductivity of a body that drains");
     let face = Face::drained(&column().body.particles, topmost, (0, End::Hi), 1.0);
     refused(Water::new(POROSITY, dry).face(face), settings, "conductivity of a body that drains");
-    assert!(Solver::<1, Means<1>, _>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
+    assert!(Solver::<1, Means<1>>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
     let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";
     refused(Water::new(0.3, some), settings, other);
     let negative = Conductivity::KozenyCarman(-1.0);
@@ -222,9 +224,9 @@ fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
     let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
     let equal = Settings::new(1.0).pressure_space(PressureSpace::Equal);
-    let refused = Solver::<1, Hats<1>, _>::new(scene, water(), Settings::new(1.0));
+    let refused = Solver::<1, Hats<1>>::new(scene, water(), Settings::new(1.0));
     assert!(refused.err().unwrap().to_string().contains("even"));
     let mut scene = standing::<1, _>(porous(), straight);
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
-    assert!(Solver::<1, Hats<1>, _>::new(scene, water(), equal).is_ok());
+    assert!(Solver::<1, Hats<1>>::new(scene, water(), equal).is_ok());
 }

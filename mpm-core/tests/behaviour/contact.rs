@@ -25,7 +25,7 @@ const LOAD: f64 = DENSITY * SPACING * SPACING * LAYERS as f64 * GRAVITY;
 /// Gap (m) of a block at rest.
 const REST_GAP: f64 = 0.9 * DISTANCE;
 
-type Block<const D: usize> = Solver<D, 3, Gimp, NeoHookean>;
+type Block<const D: usize> = Solver<D, 3, Gimp>;
 
 fn law() -> NeoHookean {
     NeoHookean::new(100.0, 0.3).unwrap()
@@ -63,7 +63,7 @@ fn floor<const D: usize>(particles: &Particles<D>, gap: f64) -> RigidFace<D> {
     RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap().touching(particles, gap)
 }
 
-type Setting<const D: usize> = (Scene<D, NeoHookean>, Settings<D>);
+type Setting<const D: usize> = (Scene<D>, Settings<D>);
 
 fn scene<const D: usize>(particles: Particles<D>, contacts: Vec<RigidContact<D>>) -> Setting<D> {
     let law = law();

@@ -31,7 +31,7 @@ fn bits_of<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D>
         axes[0] = Axis::periodic(0.0, 48);
         let (scene, mut settings) = scene_with(Grid::new(0.5, axes).unwrap(), particles, transfer);
         settings.remedy = Box::new(Fbar::new(Form::Bbar).onto(onto));
-        let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
+        let mut solver = Solver::<D, S, B, T>::new(scene, settings).unwrap();
         solver.advance(60).unwrap();
         assert!(solver.work().sorts > 1, "the test must cover sorting");
         let p = solver.particles();
@@ -71,7 +71,7 @@ fn the_order_of_the_particles_changes_rounding_only() {
             particles.permute(&order);
         }
         let (scene, settings) = scene(open_grid::<2>(0.5, 12), particles);
-        let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();
         solver.advance(40).unwrap();
         let p = solver.particles();
         p.seeded(|k| p.position[k])
@@ -111,7 +111,7 @@ where
         settings.remedy = remedy;
         scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [1e-3; D]))));
         settings.force_filters.push(Box::new(LocalDamping::new(0.1).unwrap()));
-        let mut solver = Solver::<D, S, B, _, T>::new(scene, settings).unwrap();
+        let mut solver = Solver::<D, S, B, T>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let sorts = solver.work().sorts;
         for _ in 0..60 {
@@ -130,7 +130,7 @@ where
 fn work_is_counted_exactly() {
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
     settings.remedy = Box::new(Fbar::new(Form::Rate));
-    let mut solver = Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();
     solver.advance(10).unwrap();
     let w = solver.work();
     assert_eq!((w.particles, w.steps, w.particle_steps), (64, 10, 640));
@@ -141,7 +141,7 @@ fn work_is_counted_exactly() {
     // XPIC(3) goes twice more to the particles and back.
     let particles = block(0.5, 2, [4, 4], [8, 8]);
     let (scene, settings) = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(3).unwrap());
-    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, 3, Gimp, Xpic>::new(scene, settings).unwrap();
     solver.step().unwrap();
     assert_eq!(solver.work().particle_node_pairs, 64 * 9 * (2 + 4));
 }

@@ -23,7 +23,7 @@ const DISTANCE: f64 = 0.25 * H;
 /// Share of d̂ by which the barrier gives way under that pressure.
 const LOSS: f64 = 0.002;
 
-fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp, HenckyJ2>) {
+fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp>) {
     let law = HenckyJ2::new(1e6, 0.49, Strength::undrained(STRENGTH).unwrap()).unwrap();
     let spacing = H / per_cell as f64;
     let rows = CELLS[1] * per_cell;

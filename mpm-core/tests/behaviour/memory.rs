@@ -6,7 +6,7 @@ use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
-use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength};
+use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength, shared};
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::stage::{
     BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, RigidNodes, Wall, WallKind,
@@ -22,7 +22,12 @@ fn solid() -> NeoHookean {
 }
 
 /// A block `width` cells wide that is shaken along the floor, pressed, pulled and damped.
-fn scene<M: Law, T>(law: M, transfer: T, remedy: Box<dyn Remedy<2>>, width: usize) -> (Scene<2, M>, Settings<2, T>) {
+fn scene<M: Law + 'static, T>(
+    law: M,
+    transfer: T,
+    remedy: Box<dyn Remedy<2>>,
+    width: usize,
+) -> (Scene<2>, Settings<2, T>) {
     let mut particles = block(H, 2, [1, 0], [1 + width, 6]);
     for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
         *v = [3.0, 0.05 * x[0] * x[1]];
@@ -38,7 +43,7 @@ fn scene<M: Law, T>(law: M, transfer: T, remedy: Box<dyn Remedy<2>>, width: usiz
     let drag = Friction::new(0.3, 0.5).unwrap();
     let upright = Axis::bounded(0.0, 8, (Side::Wall, Side::Open));
     let grid = Grid::new(H, [Axis::periodic(0.0, CELLS), upright]).unwrap();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
+    let scene = Scene::new(grid, Body::new(shared(law), particles).unwrap())
         .load(BodyForce(Box::new(|x: &[f64; 2], t| [100.0 * (15.0 * t).cos(), -0.2 * x[0]])))
         .load(pull)
         .constrain(Wall::new(1, End::Lo, WallKind::Roller))
@@ -92,7 +97,7 @@ fn of_basis<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone + 'sta
         goes_on(&format!("{name}, remedy {k}"), &|| {
             let remedy = remedies().into_iter().nth(k).unwrap();
             let (scene, settings) = scene(solid(), transfer.clone(), remedy, 6);
-            Box::new(Solver::<2, S, B, _, _>::new(scene, settings).unwrap())
+            Box::new(Solver::<2, S, B, _>::new(scene, settings).unwrap())
         });
     }
 }
@@ -118,7 +123,7 @@ fn every_law_goes_on_bit_for_bit() {
     fn of_law<M: Law + Copy + 'static>(name: &str, law: M) {
         goes_on(name, &|| {
             let (scene, settings) = scene(law, Flip::default(), Box::new(Fbar::new(Form::Rate)), 6);
-            Box::new(Solver::<2, 3, Gimp, _>::new(scene, settings).unwrap())
+            Box::new(Solver::<2, 3, Gimp>::new(scene, settings).unwrap())
         });
     }
     let strength = Strength::softening(1.0, 0.5, 2.0).unwrap();
@@ -126,7 +131,7 @@ fn every_law_goes_on_bit_for_bit() {
     of_law("fluid", NewtonianFluid::new(200.0, 0.1).unwrap());
 }
 
-fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp, NeoHookean> {
+fn gimp(remedy: Box<dyn Remedy<2>>, width: usize) -> Solver<2, 3, Gimp> {
     let (scene, settings) = scene(solid(), Flip::default(), remedy, width);
     Solver::new(scene, settings).unwrap()
 }
@@ -148,20 +153,20 @@ fn the_memory_of_another_scene_is_refused() {
     assert_eq!(refusal(gimp(rate(), 7)), size("id", 144, 168));
     assert_eq!(refusal(gimp(Box::new(Standard), 6)), size("j_bar", 144, 0));
     let (flat, settings) = scene(solid(), Apic, rate(), 6);
-    let apic = Solver::<2, 3, Gimp, _, _>::new(flat, settings).unwrap();
+    let apic = Solver::<2, 3, Gimp, _>::new(flat, settings).unwrap();
     assert_eq!(refusal(apic), size("affine", 0, 144));
     let (undamped, mut settings) = scene(solid(), Flip::default(), rate(), 6);
     settings.particle_filters.clear();
-    let undamped = Solver::<2, 3, Gimp, _>::new(undamped, settings).unwrap();
+    let undamped = Solver::<2, 3, Gimp>::new(undamped, settings).unwrap();
     assert_eq!(refusal(undamped), size("particle filters", 1, 0));
     let (mut longer, settings) = scene(solid(), Flip::default(), rate(), 6);
     longer.grid = Grid::new(H, [Axis::periodic(0.0, CELLS + 8), longer.grid.axes[1]]).unwrap();
-    let longer = Solver::<2, 3, Gimp, _>::new(longer, settings).unwrap();
+    let longer = Solver::<2, 3, Gimp>::new(longer, settings).unwrap();
     let of_nodes = matches!(refusal(longer), MemoryError::Size { what: "nodes", .. });
     assert!(of_nodes);
     let fluid = NewtonianFluid::new(200.0, 0.1).unwrap();
     let (fluid, settings) = scene(fluid, Flip::default(), rate(), 6);
-    let fluid = Solver::<2, 3, Gimp, _>::new(fluid, settings).unwrap();
+    let fluid = Solver::<2, 3, Gimp>::new(fluid, settings).unwrap();
     assert!(matches!(refusal(fluid), MemoryError::Read { .. } | MemoryError::Surplus { .. }));
     assert!(matches!(refusal(Standard), MemoryError::Surplus { .. }));
     assert!(matches!(refusal(KineticDamping::default()), MemoryError::Surplus { .. }));

@@ -36,7 +36,7 @@ fn cubic(n: usize, y: f64) -> f64 {
 fn symbol_is<const S: usize, B: Basis<S> + 'static>(closed: fn(usize, f64) -> f64) {
     for n in 1..=5 {
         let (scene, settings) = scene(n, Kind::None, 0.3, 0.0);
-        let solver = Solver::<2, S, B, _>::new(scene, settings);
+        let solver = Solver::<2, S, B>::new(scene, settings);
         let mut solver = solver.unwrap();
         let ids: Vec<usize> = solver.particles().id.iter().map(|id| *id as usize).collect();
         for m in [[0, 0], [1, 0], [3, 2], [4, 7], [8, 0], [8, 8]] {
@@ -123,7 +123,7 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
         for (v, unseen) in scene.body.particles.velocity.iter_mut().zip(&unseen) {
             v[0] += unseen;
         }
-        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
         solver.advance(steps).unwrap();
         let p = solver.particles();
         let mut rest: Vec<f64> = (0..p.len()).map(|k| p.velocity[k][0] - unseen[p.id[k] as usize]).collect();
@@ -174,7 +174,7 @@ fn crossing_is_linear<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64
             }
         }
         let mean_velocity = move_of_step / settings.dt;
-        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
         for step in 0..2 * steps_per_cell {
             for (axis, wave) in axes.iter().zip(&mut waves) {
                 let shift = start + f64::from(step) * move_of_step;
@@ -274,7 +274,7 @@ fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
             delta_f[(0, 0)] += strain * axis.carried(&null, id).re;
         }
         scene.body = Body::new(law, particles).unwrap();
-        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let speeds = solver.particles().velocity.iter().map(|v| v[0].abs());
         speeds.fold(0.0, f64::max)
@@ -317,7 +317,7 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
         *v = [speed * C * (TAU * x[1] / LENGTH).sin() + random(), random()];
     }
     let across = |p: &Particles<2>| -> f64 { p.velocity.iter().map(|v| v[1] * v[1]).sum() };
-    let mut solver = Solver::<2, S, B, _>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, S, B>::new(scene, settings).unwrap();
     let before = across(solver.particles());
     solver.advance(steps).unwrap();
     (across(solver.particles()) / before).sqrt()
@@ -371,7 +371,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f
         for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
             v[0] = amplitude * axis.carried(&phi, id).re;
         }
-        let mut solver = Solver::<1, S, B, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
         solver.advance(steps).unwrap();
         // J̄ takes the share ε of the strain, and the force that of the stress (J̄/J) σ.
         let held = if kind == Kind::Consistent {

@@ -3,7 +3,6 @@
 use crate::scenes::{block, law, scene};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::Solver;
-use mpm_core::material::NeoHookean;
 use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Basis, Grid, Part, Side, Simulation};
 
@@ -17,7 +16,7 @@ const RAMP: f64 = 6.0;
 
 /// A block six cells high and eight wide, on rollers at the sides, on a roller or fixed at the base, under
 /// `press`.
-fn pressed<const S: usize, B: Basis<S> + 'static>(base: WallKind, press: RigidNodes<2>) -> Solver<2, S, B, NeoHookean> {
+fn pressed<const S: usize, B: Basis<S> + 'static>(base: WallKind, press: RigidNodes<2>) -> Solver<2, S, B> {
     let upright = Axis::bounded(0.0, CELLS, (Side::Wall, Side::Open));
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS), upright]).unwrap();
     let (scene, settings) = scene(grid, block(H, 2, [0, 0], [CELLS, 6]));

@@ -30,7 +30,7 @@ pub(crate) fn block<const D: usize>(h: f64, per_cell: usize, lo: [usize; D], hi:
 }
 
 /// A body of these particles on `grid`, and steps of the CFL number 0.3.
-pub(crate) fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> (Scene<D, NeoHookean>, Settings<D>) {
+pub(crate) fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> (Scene<D>, Settings<D>) {
     let law = law();
     let dt = courant_time_step(0.3, grid.h, law.wave_speed(DENSITY));
     let body = Body::new(law, particles).unwrap();
@@ -41,7 +41,7 @@ pub(crate) fn scene_with<const D: usize, T>(
     grid: Grid<D>,
     particles: Particles<D>,
     transfer: T,
-) -> (Scene<D, NeoHookean>, Settings<D, T>) {
+) -> (Scene<D>, Settings<D, T>) {
     let (scene, settings) = scene(grid, particles);
     (scene, settings.transfer(transfer))
 }

@@ -17,7 +17,7 @@ fn xpic_falls_as_galileo_says() {
     let (mut scene, settings) = scene_with(open_grid::<2>(0.5, 12), particles, Xpic::new(2).unwrap());
     scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [0.0, -1.0]))));
     let time = 100.0 * settings.dt;
-    let mut solver = Solver::<2, 3, Gimp, _, Xpic>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, 3, Gimp, Xpic>::new(scene, settings).unwrap();
     solver.advance(100).unwrap();
     let p = solver.particles();
     for (x, reference) in p.position.iter().zip(&p.reference) {
@@ -35,8 +35,8 @@ fn turn<T: Transfer<2>>(transfer: T) -> [f64; 2] {
     }
     let (scene, settings) = scene_with(open_grid::<2>(0.25, 24), particles, transfer);
     let steps = (1.0 / spin / settings.dt) as usize;
-    let mut solver = Solver::<2, 3, QuadraticBSpline, _, T>::new(scene, settings).unwrap();
-    let now = |solver: &Solver<2, 3, QuadraticBSpline, _, T>| {
+    let mut solver = Solver::<2, 3, QuadraticBSpline, T>::new(scene, settings).unwrap();
+    let now = |solver: &Solver<2, 3, QuadraticBSpline, T>| {
         let momentum = angular_momentum(solver.particles())[0][1];
         [solver.totals().kinetic_energy, momentum]
     };
@@ -95,7 +95,7 @@ fn energy_left<const S: usize, B: Basis<S> + 'static, T: Transfer<2> + Clone>(tr
             };
         }
         let (scene, settings) = scene_with(open_grid::<2>(0.25, 24), particles, transfer.clone());
-        let mut solver = Solver::<2, S, B, _, T>::new(scene, settings).unwrap();
+        let mut solver = Solver::<2, S, B, T>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;
         solver.advance(100).unwrap();
         let t = solver.totals();
@@ -153,8 +153,8 @@ fn strain_of_a_lone_particle<T: Transfer<1>>(share: f64, transfer: T) -> f64 {
     let dt = courant_time_step(0.3, h, law.wave_speed(2.0));
     let scene = Scene::new(Grid::new(h, [Axis::open(0.0, 10)]).unwrap(), Body::new(law, squeezed).unwrap());
     let settings = Settings::new(dt).transfer(transfer);
-    let mut solver = Solver::<1, 2, Linear, _, T>::new(scene, settings).unwrap();
-    let outermost = |solver: &Solver<1, 2, Linear, _, T>| {
+    let mut solver = Solver::<1, 2, Linear, T>::new(scene, settings).unwrap();
+    let outermost = |solver: &Solver<1, 2, Linear, T>| {
         let p = solver.particles();
         let last = p.id.iter().position(|id| *id == 8).unwrap();
         p.jacobian[last]
@@ -195,7 +195,7 @@ fn swing<T: Transfer<1>>(waves: f64, transfer: T) -> [f64; 2] {
     let start = particles.velocity.clone();
     let grid = Grid::new(h, [Axis::periodic(0.0, cells)]).unwrap();
     let (scene, settings) = scene_with(grid, particles, transfer);
-    let mut solver = Solver::<1, 2, Linear, _, T>::new(scene, settings).unwrap();
+    let mut solver = Solver::<1, 2, Linear, T>::new(scene, settings).unwrap();
     let mut amplitude = || {
         let p = solver.particles();
         let now = p.seeded(|k| p.velocity[k][0]);

@@ -22,7 +22,7 @@ fn block(gap: usize, velocity: [f64; 2]) -> Particles<2> {
     particles
 }
 
-fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> (Scene<2, NeoHookean>, Settings<2, T>) {
+fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> (Scene<2>, Settings<2, T>) {
     let grid = Grid::new(H, [Axis::walls(0.0, 10), Axis::walls(0.0, 4)]).unwrap();
     let walls = WALLS.map(|(axis, end)| Wall::new(axis, end, kind));
     let (scene, settings) = scenes::scene_with(grid, particles, transfer);
@@ -31,8 +31,8 @@ fn scene<T>(particles: Particles<2>, kind: WallKind, transfer: T) -> (Scene<2, N
 }
 
 fn started<const S: usize, B: Basis<S>, T: Transfer<2>>(
-    (scene, settings): (Scene<2, NeoHookean>, Settings<2, T>),
-) -> Solver<2, S, B, NeoHookean, T> {
+    (scene, settings): (Scene<2>, Settings<2, T>),
+) -> Solver<2, S, B, T> {
     Solver::new(scene, settings).unwrap()
 }
 
@@ -42,7 +42,7 @@ fn run<const S: usize, B: Basis<S>, T: Transfer<2>>(
     block: Particles<2>,
     kind: WallKind,
     transfer: T,
-) -> Solver<2, S, B, NeoHookean, T> {
+) -> Solver<2, S, B, T> {
     let mut solver = started(scene(block, kind, transfer));
     let start = solver.totals();
     let size = start.momentum[0].abs();
@@ -138,11 +138,11 @@ fn a_body_of_other_particles_is_refused() {
 }
 
 /// A grain that hardly resists at `x` (cells from the left wall), which an `acceleration` (m/s²) pushes at the wall.
-fn grain<B: Basis<3>>(x: f64, acceleration: f64) -> Result<Solver<2, 3, B, NeoHookean, Flip>, Error> {
+fn grain<B: Basis<3>>(x: f64, acceleration: f64) -> Result<Solver<2, 3, B, Flip>, Error> {
     let place = vec![[x * H, 2.0 * H]];
     let particle = Particles::new(place, H * H / 4.0, DENSITY, [0.25 * H; 2]).unwrap();
     let (mut scene, settings) = scene(particle, WallKind::Separable, Flip::default());
-    scene.body.law = NeoHookean::new(1e-6, 0.0).unwrap();
+    scene.body.law = NeoHookean::new(1e-6, 0.0).unwrap().into();
     let pushed = scene.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-acceleration, 0.0])));
     Solver::new(pushed, settings)
 }

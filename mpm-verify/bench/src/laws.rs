@@ -2,50 +2,43 @@
 
 use crate::local::{Going, Local};
 use crate::turn::{Error, Turn};
-use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength};
-use mpm_core::{SymmetricTensor, space};
-use nalgebra::SMatrix;
+use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, SharedLaw, Strength};
+use mpm_core::{Body, Particles};
 
 /// Particles, as many as stay in a cache.
 const PARTICLES: usize = 4096;
 /// Updates of each in a slice.
 const UPDATES: u64 = 100;
 
-struct Updates<M: Law, const D: usize> {
-    law: M,
-    delta_f: SMatrix<f64, D, D>,
-    states: Vec<M::State>,
-    stresses: Vec<SymmetricTensor>,
+struct Updates<const D: usize> {
+    body: Body<D>,
 }
 
-impl<M: Law, const D: usize> Going for Updates<M, D> {
+impl<const D: usize> Going for Updates<D> {
     fn go_on(&mut self) -> Result<u64, Error> {
         for _ in 0..UPDATES {
-            let delta_f = std::hint::black_box(&self.delta_f);
-            let (states, stresses) = (&mut self.states, &mut self.stresses);
-            (self.law).update_all(|_| space::embed(delta_f), 1e-4, states, stresses);
+            self.body.update_stress(1e-4);
         }
         Ok(UPDATES * PARTICLES as u64)
     }
 }
 
 /// A law in two and in three dimensions under small shear.
-fn of<M: Law + Copy + 'static>(name: &str, law: M, shear: f64, turns: &mut Vec<Turn>) -> Result<(), Error> {
-    turns.push(turn::<M, 2>(name, law, shear)?);
-    turns.push(turn::<M, 3>(name, law, shear)?);
+fn of(name: &str, law: impl Into<SharedLaw>, shear: f64, turns: &mut Vec<Turn>) -> Result<(), Error> {
+    let law = law.into();
+    turns.push(turn::<2>(name, law.clone(), shear)?);
+    turns.push(turn::<3>(name, law, shear)?);
     Ok(())
 }
 
-fn turn<M: Law + 'static, const D: usize>(name: &str, law: M, shear: f64) -> Result<Turn, Error> {
-    let mut delta_f = SMatrix::<f64, D, D>::identity();
-    delta_f[(0, 1)] = shear;
+fn turn<const D: usize>(name: &str, law: SharedLaw, shear: f64) -> Result<Turn, Error> {
     let local = Local::new(1, || {
-        Ok(Updates {
-            states: vec![law.initial_state(); PARTICLES],
-            stresses: vec![SymmetricTensor::default(); PARTICLES],
-            law,
-            delta_f,
-        })
+        let particles = Particles::new(vec![[0.0; D]; PARTICLES], 1.0, 1.0, [0.5; D])?;
+        let mut body = Body::new(law, particles)?;
+        for f in &mut body.particles.delta_f {
+            f[(0, 1)] = shear;
+        }
+        Ok(Updates { body })
     })?;
     Ok(Turn {
         group: "law",

@@ -51,7 +51,7 @@ impl<const D: usize> Block<D> {
 
 impl<const D: usize> Block<D>
 where
-    NeoHookean: Solvable<D>,
+    Scene<D>: Solvable<D>,
 {
     fn positions(&self) -> Vec<[f64; D]> {
         let n = 2 * self.cells;
@@ -120,7 +120,7 @@ pub(super) fn turns(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Erro
 /// Blocks of 10⁴ to 10⁶·⁵ particles, half a decade apart, on one thread.
 pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error>
 where
-    NeoHookean: Solvable<D>,
+    Scene<D>: Solvable<D>,
 {
     let cells: [usize; 6] = match D {
         2 => [50, 89, 158, 281, 500, 889],

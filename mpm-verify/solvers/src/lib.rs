@@ -7,96 +7,157 @@ use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Form, Onto};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
-use mpm_core::implicit::{self, Serendipity};
-use mpm_core::material::{
-    CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean, NewtonianFluid, Viscous,
-};
+use mpm_core::implicit::{self, Interpolation, Serendipity};
 use mpm_core::poro::{self, Water};
-use mpm_core::{Error, Lattice, Law, Scene, Simulation};
+use mpm_core::{Error, Lattice, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
 
 type Built<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 
-/// A law with the solvers that are compiled for it.
-pub trait Solvable<const D: usize>: Law + Sized {
-    /// A solver of `scene` by `scheme`; the transfer of the settings stands for `flip`.
+/// A scene with the solvers that are compiled for its dimension, one for every basis and transfer.
+pub trait Solvable<const D: usize>: Sized {
+    /// An explicit solver by `scheme`; the transfer of the settings stands for `flip`.
     ///
     /// # Errors
-    /// The solver refuses the scene; the scheme is not compiled for this law in this dimension; a transfer other than
-    /// `flip` beside a blend with PIC, which it would not see.
-    fn solver(scheme: Scheme, scene: Scene<D, Self>, settings: Settings<D>) -> Built<D>;
+    /// The solver refuses the scene; the scheme is of another kind; a transfer other than `flip` beside a blend with
+    /// PIC, which it would not see.
+    fn explicit(self, scheme: Scheme, settings: Settings<D>) -> Built<D>;
+
+    /// An implicit solver by `scheme`, whose remedy stands for that of the settings; the rule of time is theirs.
+    ///
+    /// # Errors
+    /// The solver refuses the scene; the scheme is of another kind, or its basis not of this dimension.
+    fn implicit(self, scheme: Scheme, settings: implicit::Settings) -> Built<D>;
+
+    /// A solver of a body whose pores are full of `water`, on the functions of `scheme`; the space of the pressure is that
+    /// of the settings.
+    ///
+    /// # Errors
+    /// The solver refuses the scene; the scheme is of another kind, or its functions are neither hats nor means of hats.
+    fn poro(self, scheme: Scheme, water: Water<D>, settings: poro::Settings) -> Built<D>;
 }
 
 /// A solver of `scene` by `scheme`.
 ///
 /// # Errors
-/// As [`Solvable::solver`].
-pub fn solver<const D: usize, M: Solvable<D>>(scheme: Scheme, scene: Scene<D, M>, settings: Settings<D>) -> Built<D> {
-    trial::built(scene, |scene, _| M::solver(scheme, scene, settings))
+/// As [`Solvable::explicit`].
+pub fn solver<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: Settings<D>) -> Built<D>
+where
+    Scene<D>: Solvable<D>,
+{
+    trial::built(scene, |scene, _| scene.explicit(scheme, settings))
 }
 
-/// Compiles solvers for a law: bases with FLIP, bases with APIC and XPIC too, and bases with MUSL.
+/// An implicit solver of `scene` by `scheme`.
+///
+/// # Errors
+/// As [`Solvable::implicit`].
+pub fn implicit<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: implicit::Settings) -> Built<D>
+where
+    Scene<D>: Solvable<D>,
+{
+    trial::built(scene, |scene, _| scene.implicit(scheme, settings))
+}
+
+/// A solver of solid and water.
+///
+/// # Errors
+/// As [`Solvable::poro`].
+pub fn poro<const D: usize>(scheme: Scheme, scene: Scene<D>, water: Water<D>, settings: poro::Settings) -> Built<D>
+where
+    Scene<D>: Solvable<D>,
+{
+    let grid = scene.grid;
+    trial::built(scene, |scene, frame| match frame {
+        None => scene.poro(scheme, water, settings),
+        Some(frame) => {
+            let settings = settings.in_units(frame.scale(1, 0));
+            scene.poro(scheme, water.seen_from(frame, &grid), settings)
+        }
+    })
+}
+
+/// Compiles the solvers of a dimension, with the elements of eight nodes where there are any.
 macro_rules! solvable {
-    ($dimension:literal, $law:ty, flip: [$($flip:ident),*], others: [$($other:ident),*],
-     musl: [$($musl:ident),*]) => {
-        impl Solvable<$dimension> for $law {
-            #[allow(unused_variables, reason = "a law without an instance has no use for a scene")]
-            fn solver(
-                scheme: Scheme,
-                scene: Scene<$dimension, Self>,
-                settings: Settings<$dimension>,
-            ) -> Built<$dimension> {
+    ($dimension:literal, [$($transfer:ident: $made:expr),*] $(, $elements:ident)?) => {
+        impl Solvable<$dimension> for Scene<$dimension> {
+            fn explicit(self, scheme: Scheme, settings: Settings<$dimension>) -> Built<$dimension> {
                 let Scheme::Explicit(Explicit { basis, transfer, .. }) = scheme else {
                     return Err(other_solver("explicit"));
                 };
                 refuse_blend(transfer, settings.transfer.share())?;
-                match (transfer, basis) {
-                    $((TransferName::Flip, BasisName::$flip) => $flip(scene, settings),)*
-                    $((TransferName::Apic, BasisName::$other) => {
-                          $other(scene, settings.transfer(Apic))
-                      }
-                      (TransferName::Xpic2, BasisName::$other) => {
-                          $other(scene, settings.transfer(Xpic::new(2)?))
-                      })*
-                    $((TransferName::Musl, BasisName::$musl) => {
-                          $musl(scene, settings.transfer(Musl::default()))
-                      })*
-                    (_, basis) => Err(not_compiled($dimension, basis, transfer)),
+                match transfer {
+                    TransferName::Flip => moved(basis, self, settings),
+                    $(TransferName::$transfer => moved(basis, self, settings.transfer($made)),)*
+                    #[allow(unreachable_patterns, reason = "of a dimension that has them all")]
+                    _ => Err(in_the_plane($dimension)),
+                }
+            }
+
+            fn implicit(self, scheme: Scheme, settings: implicit::Settings) -> Built<$dimension> {
+                let Scheme::Implicit(parts) = scheme else {
+                    return Err(other_solver("an implicit one"));
+                };
+                let settings = settings.remedy(implicit_remedy(parts.remedy)?);
+                match parts.basis {
+                    BasisName::Linear => balanced::<$dimension, Lattice<$dimension, 2, Linear>>(self, settings),
+                    BasisName::Gimp => balanced::<$dimension, Lattice<$dimension, 3, Gimp>>(self, settings),
+                    BasisName::Bspline2 => balanced::<$dimension, Lattice<$dimension, 3, QuadraticBSpline>>(self, settings),
+                    BasisName::Bspline3 => balanced::<$dimension, Lattice<$dimension, 4, CubicBSpline>>(self, settings),
+                    $(BasisName::Q8 => balanced::<$dimension, $elements>(self, settings),)?
+                    #[allow(unreachable_patterns, reason = "of a dimension that has them all")]
+                    basis => Err(no_such_basis(basis)),
+                }
+            }
+
+            fn poro(self, scheme: Scheme, water: Water<$dimension>, settings: poro::Settings) -> Built<$dimension> {
+                let Scheme::Poro(parts) = scheme else {
+                    return Err(other_solver("poro"));
+                };
+                match parts.basis {
+                    BasisName::Linear => {
+                        type Hats = Lattice<$dimension, 2, Linear>;
+                        Ok(Box::new(poro::Solver::<$dimension, Hats>::new(self, water, settings)?))
+                    }
+                    BasisName::Gimp => {
+                        type Means = Lattice<$dimension, 3, Gimp>;
+                        Ok(Box::new(poro::Solver::<$dimension, Means>::new(self, water, settings)?))
+                    }
+                    basis => Err(no_such_basis(basis)),
                 }
             }
         }
     };
 }
 
-solvable!(1, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [], musl: []);
-solvable!(1, Viscous<NeoHookean>, flip: [Linear, Gimp, Bspline2, Bspline3], others: [], musl: []);
-solvable!(2, NeoHookean, flip: [Linear, Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: [Linear, Gimp]);
-solvable!(2, HenckyJ2, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);
-solvable!(2, NewtonianFluid, flip: [Gimp, Bspline2, Bspline3], others: [Gimp, Bspline2], musl: []);
-// Fluids flow in the plane; code that is generic over the dimension asks all the same.
-solvable!(1, NewtonianFluid, flip: [], others: [], musl: []);
-solvable!(3, NewtonianFluid, flip: [], others: [], musl: []);
-solvable!(3, NeoHookean, flip: [Gimp, Bspline2], others: [], musl: []);
-solvable!(3, HenckyJ2, flip: [Gimp, Bspline2], others: [], musl: []);
+solvable!(1, []);
+solvable!(2, [Apic: Apic, Xpic2: Xpic::new(2)?, Musl: Musl::default()], Serendipity);
+solvable!(3, []);
 
-/// One generic constructor per basis, by the basis' name.
-macro_rules! with_basis {
-    ($($name:ident: $nodes:literal, $basis:ty;)+) => {
-        $(#[allow(non_snake_case, reason = "the name of the basis, as the macro above writes it")]
-        fn $name<const D: usize, M: Law + 'static, T: Transfer<D> + 'static>(
-            scene: Scene<D, M>,
-            settings: Settings<D, T>,
-        ) -> Built<D> {
-            Ok(Box::new(Solver::<D, $nodes, $basis, M, T>::new(scene, settings)?))
-        })+
-    };
+/// An explicit solver on a basis.
+fn moved<const D: usize, T: Transfer<D> + 'static>(
+    basis: BasisName,
+    scene: Scene<D>,
+    settings: Settings<D, T>,
+) -> Built<D> {
+    fn on<const D: usize, const S: usize, B: Basis<S> + 'static, T: Transfer<D> + 'static>(
+        scene: Scene<D>,
+        settings: Settings<D, T>,
+    ) -> Built<D> {
+        Ok(Box::new(Solver::<D, S, B, T>::new(scene, settings)?))
+    }
+    match basis {
+        BasisName::Linear => on::<D, 2, Linear, T>(scene, settings),
+        BasisName::Gimp => on::<D, 3, Gimp, T>(scene, settings),
+        BasisName::Bspline2 => on::<D, 3, QuadraticBSpline, T>(scene, settings),
+        BasisName::Bspline3 => on::<D, 4, CubicBSpline, T>(scene, settings),
+        BasisName::Q8 => Err(no_such_basis(basis)),
+    }
 }
 
-with_basis! {
-    Linear: 2, Linear;
-    Gimp: 3, Gimp;
-    Bspline2: 3, QuadraticBSpline;
-    Bspline3: 4, CubicBSpline;
+/// An implicit solver on functions.
+fn balanced<const D: usize, I: Interpolation<D> + 'static>(scene: Scene<D>, settings: implicit::Settings) -> Built<D> {
+    Ok(Box::new(implicit::Solver::<D, I>::new(scene, settings)?))
 }
 
 /// The CFL number that [`mpm_core::explicit::stable_cfl`] gives for a basis, in `dimension` dimensions, with particles whose
@@ -111,148 +172,6 @@ pub fn stable_cfl(basis: BasisName, dimension: usize, half_size: f64) -> Option<
     };
     steepness.map(|s| mpm_core::explicit::stable_cfl(dimension, s))
 }
-
-/// A law with the implicit solvers that are compiled for it.
-pub trait Solved<const D: usize>: Law + Sized {
-    /// An implicit solver of `scene` by `scheme`, whose remedy stands for that of the settings; the rule of time is theirs.
-    ///
-    /// # Errors
-    /// The solver refuses the scene; the scheme is not implicit, or not compiled for this law in this dimension.
-    fn implicit(scheme: Scheme, scene: Scene<D, Self>, settings: implicit::Settings) -> Built<D>;
-}
-
-/// An implicit solver of `scene` by `scheme`.
-///
-/// # Errors
-/// As [`Solved::implicit`].
-pub fn implicit<const D: usize, M: Solved<D>>(
-    scheme: Scheme,
-    scene: Scene<D, M>,
-    settings: implicit::Settings,
-) -> Built<D> {
-    trial::built(scene, |scene, _| M::implicit(scheme, scene, settings))
-}
-
-/// Compiles implicit solvers for a law.
-macro_rules! implicit_solvers {
-    ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
-        impl Solved<$dimension> for $law {
-            #[allow(unused_variables, reason = "a law without an instance has no use for a scene")]
-            fn implicit(
-                scheme: Scheme,
-                scene: Scene<$dimension, Self>,
-                settings: implicit::Settings,
-            ) -> Built<$dimension> {
-                let Scheme::Implicit(parts) = scheme else {
-                    return Err(other_solver("an implicit one"));
-                };
-                let settings = settings.remedy(implicit_remedy(parts.remedy)?);
-                match parts.basis {
-                    $(BasisName::$basis => {
-                        let solver =
-                            implicit::Solver::<$dimension, $functions, Self>::new(scene, settings)?;
-                        Ok(Box::new(solver))
-                    })*
-                    #[allow(unreachable_patterns, reason = "of a law that has them all")]
-                    basis => Err(not_compiled($dimension, basis, TransferName::Flip)),
-                }
-            }
-        }
-    };
-}
-
-implicit_solvers!(2, Hencky, [
-    Linear: Lattice<2, 2, Linear>,
-    Gimp: Lattice<2, 3, Gimp>,
-    Bspline2: Lattice<2, 3, QuadraticBSpline>,
-    Bspline3: Lattice<2, 4, CubicBSpline>,
-    Q8: Serendipity
-]);
-implicit_solvers!(2, NeoHookean, [
-    Linear: Lattice<2, 2, Linear>,
-    Gimp: Lattice<2, 3, Gimp>,
-    Bspline2: Lattice<2, 3, QuadraticBSpline>,
-    Bspline3: Lattice<2, 4, CubicBSpline>
-]);
-implicit_solvers!(1, NeoHookean, [
-    Linear: Lattice<1, 2, Linear>,
-    Gimp: Lattice<1, 3, Gimp>,
-    Bspline2: Lattice<1, 3, QuadraticBSpline>
-]);
-implicit_solvers!(2, NewtonianFluid, [Gimp: Lattice<2, 3, Gimp>, Bspline2: Lattice<2, 3, QuadraticBSpline>]);
-implicit_solvers!(1, NewtonianFluid, []);
-implicit_solvers!(3, NewtonianFluid, []);
-implicit_solvers!(3, NeoHookean, [Gimp: Lattice<3, 3, Gimp>, Bspline2: Lattice<3, 3, QuadraticBSpline>]);
-implicit_solvers!(2, HenckyJ2, [
-    Linear: Lattice<2, 2, Linear>,
-    Gimp: Lattice<2, 3, Gimp>,
-    Bspline2: Lattice<2, 3, QuadraticBSpline>
-]);
-implicit_solvers!(2, HypoelasticJ2, [Gimp: Lattice<2, 3, Gimp>]);
-implicit_solvers!(2, Hypoelastic, [Bspline2: Lattice<2, 3, QuadraticBSpline>, Q8: Serendipity]);
-
-/// A law with the solvers of solid and water that are compiled for it.
-pub trait Soaked<const D: usize>: Law + Sized {
-    /// A solver of `scene`, whose pores are full of `water`, on the functions of `scheme`; the space of the pressure is
-    /// that of the settings.
-    ///
-    /// # Errors
-    /// The solver refuses the scene; the scheme is of another kind, or not compiled for this law in this dimension.
-    fn poro(scheme: Scheme, scene: Scene<D, Self>, water: Water<D>, settings: poro::Settings) -> Built<D>;
-}
-
-/// A solver of solid and water.
-///
-/// # Errors
-/// As [`Soaked::poro`].
-pub fn poro<const D: usize, M: Soaked<D>>(
-    scheme: Scheme,
-    scene: Scene<D, M>,
-    water: Water<D>,
-    settings: poro::Settings,
-) -> Built<D> {
-    let grid = scene.grid;
-    trial::built(scene, |scene, frame| match frame {
-        None => M::poro(scheme, scene, water, settings),
-        Some(frame) => {
-            let settings = settings.in_units(frame.scale(1, 0));
-            M::poro(scheme, scene, water.seen_from(frame, &grid), settings)
-        }
-    })
-}
-
-/// Compiles solvers of solid and water for a law.
-macro_rules! soaked {
-    ($dimension:literal, $law:ty, [$($basis:ident: $functions:ty),*]) => {
-        impl Soaked<$dimension> for $law {
-            fn poro(
-                scheme: Scheme,
-                scene: Scene<$dimension, Self>,
-                water: Water<$dimension>,
-                settings: poro::Settings,
-            ) -> Built<$dimension> {
-                let Scheme::Poro(parts) = scheme else {
-                    return Err(other_solver("poro"));
-                };
-                match parts.basis {
-                    $(BasisName::$basis => {
-                        let solver =
-                            poro::Solver::<$dimension, $functions, Self>::new(scene, water, settings)?;
-                        Ok(Box::new(solver))
-                    })*
-                    basis => Err(not_compiled($dimension, basis, TransferName::Flip)),
-                }
-            }
-        }
-    };
-}
-
-soaked!(1, Hencky, [Linear: Lattice<1, 2, Linear>, Gimp: Lattice<1, 3, Gimp>]);
-soaked!(2, Hencky, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
-soaked!(1, ImprovedHencky, [Linear: Lattice<1, 2, Linear>, Gimp: Lattice<1, 3, Gimp>]);
-soaked!(2, ImprovedHencky, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
-soaked!(3, ImprovedHencky, [Gimp: Lattice<3, 3, Gimp>]);
-soaked!(2, CamClay, [Linear: Lattice<2, 2, Linear>, Gimp: Lattice<2, 3, Gimp>]);
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
     match remedy {
@@ -283,17 +202,12 @@ fn refuse_blend(transfer: TransferName, share: f64) -> Result<(), Error> {
     })
 }
 
-fn not_compiled(dimension: usize, basis: BasisName, transfer: TransferName) -> Error {
-    let other = transfer != TransferName::Flip;
-    let (value, what, allowed) = if other && dimension != 2 {
-        let what = "dimension of a problem with another transfer than flip";
-        (dimension, what, "2")
-    } else if dimension == 3 {
-        let what = "dimension of a problem with this basis";
-        (dimension, what, "1 or 2")
-    } else {
-        let what = "degree of the basis beside this law and transfer";
-        (basis.degree(), what, "that of a scheme that the case lists")
-    };
-    Error::Input { what, value: value as f64, allowed }
+fn in_the_plane(dimension: usize) -> Error {
+    let what = "dimension of a problem with another transfer than flip";
+    Error::Input { what, value: dimension as f64, allowed: "2" }
+}
+
+fn no_such_basis(basis: BasisName) -> Error {
+    let what = "degree of the basis of this kind of solver in this dimension";
+    Error::Input { what, value: basis.degree() as f64, allowed: "that of a scheme that the case lists" }
 }

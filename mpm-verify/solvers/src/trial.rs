@@ -8,7 +8,7 @@ mod told;
 pub use told::{Column, Scales};
 
 use crate::Built;
-use mpm_core::{Error, Frame, Grid, Law, Saved, Scene, Simulation, Work};
+use mpm_core::{Error, Frame, Grid, Saved, Scene, Simulation, Work};
 use std::cell::RefCell;
 
 /// Where a scene is seen from.
@@ -124,9 +124,9 @@ pub fn run<T>(trial: Trial, begin: impl FnOnce() -> T) -> Option<Result<Outcome,
 }
 
 /// The solver that `build` makes of `scene`, or, on trial, of what is seen of it, after the trial.
-pub(crate) fn built<const D: usize, M: Law>(
-    scene: Scene<D, M>,
-    build: impl FnOnce(Scene<D, M>, Option<&Frame<D>>) -> Built<D>,
+pub(crate) fn built<const D: usize>(
+    scene: Scene<D>,
+    build: impl FnOnce(Scene<D>, Option<&Frame<D>>) -> Built<D>,
 ) -> Built<D> {
     let stage = TRIAL.take();
     let Some(Stage::Waiting(trial)) = stage else {
@@ -150,11 +150,11 @@ pub(crate) fn built<const D: usize, M: Law>(
 
 type Tried<const D: usize> = (Outcome, Box<dyn Simulation<D>>);
 
-fn tried<const D: usize, M: Law>(
+fn tried<const D: usize>(
     trial: &Trial,
-    scene: Scene<D, M>,
+    scene: Scene<D>,
     frame: &Frame<D>,
-    build: impl FnOnce(Scene<D, M>, Option<&Frame<D>>) -> Built<D>,
+    build: impl FnOnce(Scene<D>, Option<&Frame<D>>) -> Built<D>,
 ) -> Result<Tried<D>, Error> {
     let grid = scene.grid;
     let mut seen = match trial.view {

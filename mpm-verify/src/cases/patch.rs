@@ -238,7 +238,7 @@ impl Moving {
 
 impl<const D: usize> Problem<D> for Moving
 where
-    NeoHookean: Solvable<D> + Solved<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Moved;
     type Seen = Rows;

@@ -1,7 +1,6 @@
 //! Scenes and observations that cases of solid and water share.
 
 use crate::cases::prelude::*;
-use mpm_core::Law;
 use mpm_core::poro::PressureSpace;
 
 /// Weight of water (N/m³).
@@ -22,7 +21,10 @@ pub(super) const PER_CELL: usize = 2;
 const ROOM: usize = 2;
 
 /// A column on a sealed floor.
-pub(super) fn column<P: ParameterSet, L: Law>(setup: &Setup<P>, law: L) -> Result<Scene<1, L>, mpm_core::Error> {
+pub(super) fn column<P: ParameterSet>(
+    setup: &Setup<P>,
+    law: impl Into<SharedLaw>,
+) -> Result<Scene<1>, mpm_core::Error> {
     let (h, cells) = (setup.h, (HEIGHT / setup.h).round() as usize);
     let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
     let spacing = h / PER_CELL as f64;

@@ -9,7 +9,7 @@ const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 const DT: f64 = 0.01;
 
 /// A block in the middle of a grid of `CELLS` + 4 cells that turns, stretches and drifts.
-fn tumbling<M: Law>(law: M) -> Scene<2, M> {
+fn tumbling<M: Law + 'static>(law: M) -> Scene<2> {
     let mut scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, law);
     let shift = 2.0 * H;
     let p = &mut scene.body.particles;
@@ -26,13 +26,13 @@ fn rubber() -> NeoHookean {
     NeoHookean::new(YOUNG, POISSON).unwrap()
 }
 
-fn moving<I: Interpolation<2>, M: Law>(law: M, rule: TimeRule) -> Solver<2, I, M> {
+fn moving<I: Interpolation<2>, M: Law + 'static>(law: M, rule: TimeRule) -> Solver<2, I> {
     let settings = Settings { tolerance: 1e-12, ..Settings::new(DT).rule(rule) };
     Solver::new(tumbling(law), settings).unwrap()
 }
 
 /// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance does not matter to the midpoint rule.
-fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone>(law: M) {
+fn keeps_momentum<const D: usize, I: Interpolation<2>, M: Law + Clone + 'static>(law: M) {
     for rule in [MIDPOINT, NEWMARK] {
         let mut solver = moving::<I, M>(law.clone(), rule);
         let before = solver.totals().momentum;
@@ -51,7 +51,7 @@ fn momentum_is_kept() {
 }
 
 /// ΔT + F_int · u = −½ β Δvᵀ (M_l − M_c) Δv, whatever the body does.
-fn balances<const D: usize, I: Interpolation<2>, M: Law>(law: M) {
+fn balances<const D: usize, I: Interpolation<2>, M: Law + 'static>(law: M) {
     let mut solver = moving::<I, M>(law, MIDPOINT);
     for _ in 0..5 {
         let before = solver.totals();
@@ -83,7 +83,7 @@ fn a_body_falls_freely() {
         }
         let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
         let settings = Settings { tolerance: 1e-13, ..Settings::new(DT).rule(rule) };
-        let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+        let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
         solver.advance(10).unwrap();
         let time: f64 = 10.0 * DT;
         let p = solver.particles();
@@ -105,7 +105,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
     scene.body.particles.velocity.fill([0.0; 2]);
     let settings = Settings::new(DT).rule(MIDPOINT);
     let scene = scene.constrain(plate);
-    let mut solver = Solver::<2, Quadratics<2>, _>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
     for _ in 0..8 {
         solver.step().unwrap();
         let speed = SPEED * smooth_rise(solver.time(), ramp);
@@ -116,7 +116,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
 }
 
 /// A box between rollers that swings along its first axis.
-fn swinging() -> Scene<2, NeoHookean> {
+fn swinging() -> Scene<2> {
     let mut scene = full::<2, _>(CELLS, Places::Uniform, rubber());
     let p = &mut scene.body.particles;
     for (x, v) in p.position.iter().zip(&mut p.velocity) {
@@ -130,7 +130,7 @@ fn swinging() -> Scene<2, NeoHookean> {
 /// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
     let settings = Settings { tolerance: 1e-12, ..Settings::new(0.08 / f64::from(steps)).rule(rule) };
-    let mut solver = Solver::<2, Quadratics<2>, _>::new(swinging(), settings).unwrap();
+    let mut solver = Solver::<2, Quadratics<2>>::new(swinging(), settings).unwrap();
     solver.advance(steps as usize).unwrap();
     let p = solver.particles();
     p.seeded(|k| p.position[k])
@@ -163,7 +163,7 @@ fn the_rules_agree_between_walls() {
 #[test]
 fn unstable_rules_are_refused() {
     let refused = |rule: TimeRule, what: &str| {
-        let error = Solver::<2, Means<2>, _>::new(tumbling(rubber()), Settings::new(DT).rule(rule));
+        let error = Solver::<2, Means<2>>::new(tumbling(rubber()), Settings::new(DT).rule(rule));
         let error = error.err().unwrap().to_string();
         assert!(error.contains(what), "{error}");
     };

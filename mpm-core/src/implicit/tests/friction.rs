@@ -16,11 +16,15 @@ pub(super) const TOLERANCE: f64 = 1e-12;
 pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
 pub(super) const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 
-type Block = Solver<2, Quadratics<2>, NeoHookean>;
+type Block = Solver<2, Quadratics<2>>;
 
 /// K is the slope of the forces of sticks that were stretched before, so far that no trial changes what they do: all
 /// particles that touch do the same.
-fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy, friction: Friction) {
+fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
+    law: M,
+    remedy: Remedy,
+    friction: Friction,
+) {
     let mut solver = strained::<D, I, M>(law, remedy);
     let face = RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap();
     let particles = &solver.scene.body.particles;
@@ -43,7 +47,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law>(law: M, rem
     slope_of_the_forces(&solver, remedy);
 }
 
-fn particles_of<const D: usize, I: Interpolation<D>, M: Law>(solver: &Solver<D, I, M>) -> usize {
+fn particles_of<const D: usize, I: Interpolation<D>>(solver: &Solver<D, I>) -> usize {
     solver.scene.body.particles.len()
 }
 

@@ -5,7 +5,7 @@ use crate::fixture::{apart, multiply, noise, slope};
 use nalgebra::DMatrix;
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
-pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) -> Solver<D, I, M> {
+pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> Solver<D, I> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1));
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
     scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
@@ -25,15 +25,12 @@ fn random_values(count: usize, held: &[Option<f64>], size: f64, seed: usize) -> 
 }
 
 /// K x is what central differences of the forces along x extrapolate to, and the assembled matrix times x without F̄.
-fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) {
+fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) {
     slope_of_the_forces(&strained::<D, I, M>(law, remedy), remedy);
 }
 
 /// The same of a solver.
-pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>, M: Law>(
-    solver: &Solver<D, I, M>,
-    remedy: Remedy,
-) {
+pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>>(solver: &Solver<D, I>, remedy: Remedy) {
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
     let nodes = solver.functions.len();
@@ -83,7 +80,7 @@ fn stiffness_is_the_slope_of_the_forces() {
 }
 
 /// max |K − Kᵀ| over max |K|.
-fn asymmetry<const D: usize, I: Interpolation<D>, M: Law>(law: M, remedy: Remedy) -> f64 {
+fn asymmetry<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> f64 {
     let solver = strained::<D, I, M>(law, remedy);
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
@@ -123,7 +120,7 @@ fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D
     let scene = full::<D, _>(CELLS, Places::Uniform, NeoHookean::new(YOUNG, 0.49).unwrap());
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
-    let solver = Solver::<D, I, _>::new(scene.constrain(wall), settings).unwrap();
+    let solver = Solver::<D, I>::new(scene.constrain(wall), settings).unwrap();
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
     let (nodes, unknowns) = (solver.functions.len(), &setting.unknowns);

@@ -31,7 +31,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
 }
 
 /// A block between rollers, on a floor if there is one, of `rows` rows of particles.
-fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>, NeoHookean> {
+fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>> {
     let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
     let whole = filled(axes, CELLS, Places::Uniform, rubber());
     let mut seeded = whole.body.particles.position.clone();
@@ -51,7 +51,7 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>, NeoHooke
 }
 
 /// Weight (N/m) of the pile.
-fn weight(pile: &Solver<2, Means<2>, NeoHookean>) -> f64 {
+fn weight(pile: &Solver<2, Means<2>>) -> f64 {
     pile.totals().mass
 }
 
@@ -105,7 +105,7 @@ fn accelerations_are_those_of_the_new_scene() {
 
 /// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is
 /// upward.
-fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>, HenckyJ2> {
+fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>> {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
     let axes = [Axis::bounded(0.0, CELLS + 4, (Side::Wall, Side::Open)); 2];
     let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));

@@ -1,12 +1,11 @@
 //! State of a particle of clay.
 
 use crate::material::State;
-use crate::number::{Lanes, Real};
+use crate::number::Real;
 use crate::tensor::SymmetricTensor;
-use serde::{Deserialize, Serialize};
 
 /// The state of [`CamClay`](super::CamClay).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CamClayState<T = f64> {
     /// The elastic left Cauchy–Green tensor b_e.
     pub elastic: SymmetricTensor<T>,
@@ -17,23 +16,18 @@ pub struct CamClayState<T = f64> {
 }
 
 impl State for CamClayState {
+    const NUMBERS: usize = 8;
     type Of<T: Real> = CamClayState<T>;
 
     #[inline(always)]
-    fn pack<T: Real>(of: impl Fn(usize) -> Self) -> CamClayState<T> {
-        CamClayState {
-            elastic: SymmetricTensor::pack(|k| of(k).elastic),
-            plastic_volume: T::pack(|k| of(k).plastic_volume),
-            plastic_strain: T::pack(|k| of(k).plastic_strain),
-        }
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> CamClayState<T> {
+        CamClayState { plastic_volume: of(6), plastic_strain: of(7), elastic: SymmetricTensor::read(of) }
     }
 
     #[inline(always)]
-    fn part<T: Lanes>(of: &CamClayState<T>, k: usize) -> Self {
-        Self {
-            elastic: of.elastic.part(k),
-            plastic_volume: of.plastic_volume.part(k),
-            plastic_strain: of.plastic_strain.part(k),
-        }
+    fn write<T: Real>(of: &CamClayState<T>, mut put: impl FnMut(usize, &T)) {
+        SymmetricTensor::write(&of.elastic, &mut put);
+        put(6, &of.plastic_volume);
+        put(7, &of.plastic_strain);
     }
 }

@@ -6,8 +6,8 @@ fn water<const D: usize>() -> Water<D> {
     Water::new(POROSITY, kozeny_carman())
 }
 
-fn refused<const D: usize>(scene: Scene<D, ImprovedHencky>, water: Water<D>, what: &str) {
-    match Solver::<D, Hats<D>, _>::new(scene, water, Settings::new(1.0)).err() {
+fn refused<const D: usize>(scene: Scene<D>, water: Water<D>, what: &str) {
+    match Solver::<D, Hats<D>>::new(scene, water, Settings::new(1.0)).err() {
         Some(error @ Error::Input { .. }) => {
             assert!(error.to_string().contains(what), "{error}");
         }
@@ -16,7 +16,7 @@ fn refused<const D: usize>(scene: Scene<D, ImprovedHencky>, water: Water<D>, wha
 }
 
 /// A body whose corners at the top lie in the cell above, which is empty.
-fn jutting() -> Scene<1, ImprovedHencky> {
+fn jutting() -> Scene<1> {
     let mut scene = standing::<1, _>(porous(), straight);
     scene.body.particles.half_size = [0.5 * H];
     scene
@@ -85,7 +85,7 @@ fn the_sum_of_a_load_is_checked_in_every_step() {
 }
 
 /// A column without its right wall, drained there.
-fn slab<I: OfHats<2>>(water: Water<2>, settings: Settings) -> Solver<2, I, ImprovedHencky> {
+fn slab<I: OfHats<2>>(water: Water<2>, settings: Settings) -> Solver<2, I> {
     let mut scene = standing::<2, _>(porous(), straight);
     scene.constraints.remove(1);
     let water = water.drained(|x| x[0] > WIDE as f64 * H - 1e-9);
@@ -93,7 +93,7 @@ fn slab<I: OfHats<2>>(water: Water<2>, settings: Settings) -> Solver<2, I, Impro
 }
 
 /// How much of the most the displacements of the uppermost particles differ by, after a step.
-fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I, ImprovedHencky>) -> f64 {
+fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I>) -> f64 {
     solver.step().unwrap();
     let p = solver.particles();
     let upper = (0..p.len()).filter(|k| topmost(&p.reference[*k]));

@@ -14,8 +14,9 @@ fn an_answer_is_pulled_back_to_the_start() {
     let (volume, jacobian, p, slope) = (0.3, 1.02, 2e3, [5e4, -8e4, 3e4]);
     let law = porous();
     let state = law.initial_state();
+    let row = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
     let particle =
-        Particle { law: &law, state: &state, water: &water, rate: VolumeRate::Exact, dt: 1.0, volume, jacobian };
+        Particle { law: &law, state: &row, water: &water, rate: VolumeRate::Exact, dt: 1.0, volume, jacobian };
     let answer = particle.respond(&f, p, &slope);
 
     let (j, inverse) = (f.determinant(), f.try_inverse().unwrap());

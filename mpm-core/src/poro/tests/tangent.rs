@@ -5,7 +5,7 @@ use crate::fixture::{apart, multiply, noise, slope};
 use crate::implicit::algebra::norm;
 
 /// A strained column with all that a scene can have, shorter along every axis: no domain leaves the cells it was in.
-fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I, ImprovedHencky> {
+fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
         let strain = 0.04 * noise(3 * i + j + 1);
         if i == j { 1.0 - strain.abs() } else { strain }

@@ -2,7 +2,7 @@
 
 use super::model::{CELLS, H, Kind};
 use mpm_core::explicit::{Settings, courant_time_step};
-use mpm_core::material::NewtonianFluid;
+use mpm_core::material::{NewtonianFluid, shared};
 use mpm_core::number::Real;
 use mpm_core::{Axis, Body, Grid, Law, Particles, Scene, SymmetricTensor};
 use nalgebra::Matrix3;
@@ -52,7 +52,7 @@ pub(super) const FLUID: NewtonianFluid = NewtonianFluid { bulk_modulus: 50.0, vi
 pub(super) const C: f64 = 5.0;
 
 /// `n` particles per cell and direction, at the middle of their shares, on a periodic grid.
-pub(super) fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> (Scene<D, Prestressed>, Settings<D>) {
+pub(super) fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -> (Scene<D>, Settings<D>) {
     let spacing = H / n as f64;
     let count = CELLS * n;
     let positions = (0..count.pow(D as u32))
@@ -63,5 +63,5 @@ pub(super) fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -
     let grid = Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap();
     let law = Prestressed { bulk: FLUID, mean };
     let settings = Settings::new(courant_time_step(cfl, H, C)).remedy(kind.remedy());
-    (Scene::new(grid, Body::new(law, particles).unwrap()), settings)
+    (Scene::new(grid, Body::new(shared(law), particles).unwrap()), settings)
 }

@@ -1,6 +1,6 @@
 //! State of a simulation as columns: every quantity it can give, by dimension.
 
-use mpm_core::{Axis, Field, Frame, Grid, Law, Part, Particles, Reaction, Scene, Simulation};
+use mpm_core::{Axis, Field, Frame, Grid, Part, Particles, Reaction, Scene, Simulation};
 
 /// Numbers of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Scales {
 
 impl Scales {
     /// Scales of the scene `seen` from `frame`.
-    pub(super) fn of<const D: usize, M: Law>(seen: &Scene<D, M>, frame: &Frame<D>) -> Self {
+    pub(super) fn of<const D: usize>(seen: &Scene<D>, frame: &Frame<D>) -> Self {
         let (stress, density) = (seen.body.wave_modulus(), seen.body.least_density());
         let barriers = seen.contacts.iter().map(|c| c.barrier().distance());
         let length = frame.scale(0, 1);

@@ -78,7 +78,7 @@ impl Setup<Cantilever> {
         }
     }
 
-    fn with<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn with(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let (h, element) = (self.cell(), self.element());
         let per_cell = self.points_per_direction as f64;
         let volume = element[0] * element[1] / (per_cell * per_cell);

@@ -92,7 +92,7 @@ impl Setup<Cook> {
     }
 
     /// The membrane, its clamp and its load, which grows over `ramp` (s), with this `headroom` (m) beyond the margin.
-    fn scene(&self, ramp: f64, headroom: f64) -> Result<Scene<2, NeoHookean>, mpm_core::Error> {
+    fn scene(&self, ramp: f64, headroom: f64) -> Result<Scene<2>, mpm_core::Error> {
         let h = self.h;
         let cells = |length: f64| (length / h).ceil() as usize;
         let (right, below, above) = MARGIN;

@@ -7,7 +7,6 @@ mod run;
 use crate::cases::prelude::*;
 use crate::parameter::Domain;
 use crate::problem::begin;
-use mpm_core::material::Viscous;
 use run::{PERIOD, Trials};
 
 const LEVELS: [Level; 1] = [Level { name: "n6", h: 1.0 / PERIOD as f64 }];
@@ -44,7 +43,7 @@ metrics! { ALL:
 }
 
 pub(super) fn case() -> Case {
-    Case::of::<1, Trials<1, NeoHookean>>("critical-step", "Largest stable step", ALL)
+    Case::of::<1, Trials<1>>("critical-step", "Largest stable step", ALL)
         .planned(plan())
         .described("A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
             does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
@@ -66,10 +65,9 @@ pub(super) fn case() -> Case {
         .begun(|spec, values| {
             let setup = Setup::<Step>::of_spec(spec, values)?;
             match setup.dimension {
-                1 if setup.linear_viscosity > 0.0 => begin::<1, Trials<1, Viscous<NeoHookean>>>(spec, values),
-                1 => begin::<1, Trials<1, NeoHookean>>(spec, values),
-                2 => begin::<2, Trials<2, NeoHookean>>(spec, values),
-                _ => begin::<3, Trials<3, NeoHookean>>(spec, values),
+                1 => begin::<1, Trials<1>>(spec, values),
+                2 => begin::<2, Trials<2>>(spec, values),
+                _ => begin::<3, Trials<3>>(spec, values),
             }
         })
         .tables(tables())

@@ -52,18 +52,20 @@ impl Grown {
     }
 }
 
-/// A lattice of particles of the law `M` with noise.
-pub(super) struct Trials<const D: usize, M> {
+/// A lattice of particles with noise.
+pub(super) struct Trials<const D: usize> {
     setup: Setup<Step>,
     scheme: Explicit,
-    /// The law without a viscosity, and as the particles have it.
+    /// The law without a viscosity.
     law: NeoHookean,
-    material: M,
     /// Speed of waves (m/s) of the state of the start along the axis.
     speed: f64,
 }
 
-impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
+impl<const D: usize> Trials<D>
+where
+    Scene<D>: Solvable<D>,
+{
     fn is_cut(&self) -> bool {
         self.setup.layout == Layout::Cut
     }
@@ -125,7 +127,12 @@ impl<const D: usize, M: Solvable<D> + Material> Trials<D, M> {
             _ => Axis::periodic(0.0, PERIOD),
         };
         let grid = Grid::new(h, std::array::from_fn(axis))?;
-        let scene = Scene::new(grid, Body::new(self.material, particles)?);
+        let viscosity = self.setup.linear_viscosity;
+        let body = match viscosity > 0.0 {
+            true => Body::new(Viscous::new(self.law, DENSITY, h, [viscosity, 0.0])?, particles)?,
+            false => Body::new(self.law, particles)?,
+        };
+        let scene = Scene::new(grid, body);
         let settings = Settings::new(courant_time_step(cfl, h, self.speed));
         solver(self.setup.scheme, scene, settings.remedy(self.scheme.remedy.build()))
     }
@@ -157,25 +164,10 @@ fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
     f
 }
 
-/// A law of the particles.
-pub(super) trait Material: Copy {
-    /// The law of a setup, from that without a viscosity.
-    fn of(law: NeoHookean, setup: &Setup<Step>) -> Result<Self, Fault>;
-}
-
-impl Material for NeoHookean {
-    fn of(law: NeoHookean, _: &Setup<Step>) -> Result<Self, Fault> {
-        Ok(law)
-    }
-}
-
-impl Material for Viscous<NeoHookean> {
-    fn of(law: NeoHookean, setup: &Setup<Step>) -> Result<Self, Fault> {
-        Viscous::new(law, DENSITY, setup.h, [setup.linear_viscosity, 0.0])
-    }
-}
-
-impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
+impl<const D: usize> Problem<D> for Trials<D>
+where
+    Scene<D>: Solvable<D>,
+{
     type Parameters = Step;
     type Seen = Grown;
 
@@ -199,7 +191,7 @@ impl<const D: usize, M: Solvable<D> + Material> Problem<D> for Trials<D, M> {
         let law = NeoHookean::new(YOUNG_MODULUS, setup.poisson_ratio)?;
         let (stress, state) = law.at_rest(&stretched::<3>(stretch));
         let speed = (law.wave_modulus(stretch, &stress, &state) / DENSITY).sqrt();
-        Ok(Self { scheme, law, material: M::of(law, &setup)?, speed, setup })
+        Ok(Self { scheme, law, speed, setup })
     }
 
     fn discretisation(&self) -> Discretisation {

@@ -82,7 +82,7 @@ impl Dam {
     }
 
     /// The water in the tank, under gravity that rises over `rise` (s).
-    fn tank(&self, rise: f64) -> Result<Scene<2, NewtonianFluid>, Fault> {
+    fn tank(&self, rise: f64) -> Result<Scene<2>, Fault> {
         let kind = if self.setup.wall_contact == Contact::Sticky { WallKind::Roller } else { WallKind::Separable };
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
         let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * smooth_rise(time, rise)]));

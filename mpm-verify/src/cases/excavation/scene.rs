@@ -249,7 +249,7 @@ impl Ground {
         self.solved(stage, law)
     }
 
-    fn solved<M: Law + Solved<2>>(&self, stage: Stage, law: M) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn solved(&self, stage: Stage, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let body = Body::new(law, self.particles_of(stage)?)?;
         let rises = stage == Stage::Gravity;
         let gravity = move |time: f64| {

@@ -4,7 +4,6 @@ use super::look::{Series as Rows, State};
 use super::*;
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, KINETIC, Measured, POTENTIAL, Part, START_X, START_Y};
 use crate::sampled::SHORT;
-use mpm_core::material::HenckyJ2;
 use mpm_solvers::Solvable;
 
 const TIME: Asked =
@@ -24,7 +23,7 @@ const AT_ONCE: f64 = 0.005;
 
 pub(in crate::cases) fn foreign<const D: usize>() -> Foreign
 where
-    HenckyJ2: Solvable<D>,
+    Scene<D>: Solvable<D>,
 {
     let groups = vec![
         Group::new(&[START_X, START_Y, REST_STRESS], [OVERBURDEN_ERROR], |given| {

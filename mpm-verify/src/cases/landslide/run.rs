@@ -107,7 +107,7 @@ pub(super) struct Slide<const D: usize> {
 
 impl<const D: usize> Slide<D>
 where
-    HenckyJ2: Solvable<D>,
+    Scene<D>: Solvable<D>,
 {
     /// Ends the gravity stage.
     fn release(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
@@ -279,7 +279,7 @@ fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
 
 impl<const D: usize> Problem<D> for Slide<D>
 where
-    HenckyJ2: Solvable<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Landslide;
     type Seen = Seen;

@@ -234,8 +234,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
 
 impl<const D: usize, K: Known> Problem<D> for Motion<D, K>
 where
-    NeoHookean: Solvable<D> + Solved<D>,
-    NewtonianFluid: Solvable<D> + Solved<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Own<K>;
     type Seen = Seen;

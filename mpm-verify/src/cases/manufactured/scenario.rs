@@ -105,8 +105,7 @@ impl<K: Known> Scenario<K> {
     /// The simulation at its start, with steps of `dt` (s).
     pub(super) fn begin<const D: usize>(&self, dt: f64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
     where
-        NeoHookean: Solvable<D> + Solved<D>,
-        NewtonianFluid: Solvable<D> + Solved<D>,
+        Scene<D>: Solvable<D>,
     {
         match self.medium() {
             Medium::Solid(law) => solved(&self.setup, self.scene(law, dt)?, dt),
@@ -115,11 +114,11 @@ impl<K: Known> Scenario<K> {
     }
 
     /// The body at its start, with what holds and drives it.
-    pub(in crate::cases) fn scene<const D: usize, M: Law>(
+    pub(in crate::cases) fn scene<const D: usize>(
         &self,
-        law: M,
+        law: impl Into<SharedLaw>,
         dt: f64,
-    ) -> Result<Scene<D, M>, mpm_core::Error> {
+    ) -> Result<Scene<D>, mpm_core::Error> {
         let (grid, walls) = self.surroundings()?;
         let body = Body::new(law, self.seed(dt)?)?;
         let forcing = forcing(&self.solution);
@@ -203,11 +202,14 @@ pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
 }
 
 /// The solver of a scene, of steps `dt` (s).
-fn solved<const D: usize, M: Solvable<D> + Solved<D>, P: ParameterSet>(
+fn solved<const D: usize, P: ParameterSet>(
     setup: &Setup<P>,
-    scene: Scene<D, M>,
+    scene: Scene<D>,
     dt: f64,
-) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+where
+    Scene<D>: Solvable<D>,
+{
     if let Some(settings) = setup.implicit_settings(dt) {
         return mpm_solvers::implicit(setup.scheme, scene, settings);
     }

@@ -81,7 +81,7 @@ impl<const D: usize> Slow<D> {
 
 impl<const D: usize> Problem<D> for Slow<D>
 where
-    NeoHookean: Solved<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Own<SlowVortex>;
     type Seen = u64;

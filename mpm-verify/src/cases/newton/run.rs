@@ -126,7 +126,7 @@ impl Loaded {
     }
 
     /// The column of a law at its start.
-    fn simulation<M: Law + Solved<2>>(&self, law: M) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn simulation(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, Fault> {
         let (h, spacing) = (self.setup.h, self.setup.pitch());
         let cells = (HEIGHT / h).round() as usize;
         let upward = if self.setup.stands() {

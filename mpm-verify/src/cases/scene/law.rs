@@ -3,72 +3,41 @@
 use super::fault::Source;
 use super::form::{Form, LawForm, StrengthForm};
 use crate::error::Error;
-use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, Strength};
+use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, NeoHookean, NewtonianFluid, SharedLaw, Strength};
 
-/// A law.
-#[derive(Clone, Copy)]
-pub(super) enum Material {
-    NeoHookean(NeoHookean),
-    Hencky(Hencky),
-    HenckyJ2(HenckyJ2),
-    NewtonianFluid(NewtonianFluid),
-    ImprovedHencky(ImprovedHencky),
-    CamClay(CamClay),
-}
-
-impl Material {
-    /// Material of a form, in a body of the given porosity.
-    pub(super) fn of(form: &LawForm, porosity: Option<f64>) -> Result<Self, mpm_core::Error> {
-        let soaked = |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
-        Ok(match form {
-            LawForm::NeoHookean { young_modulus_pa: e, poisson_ratio: nu } => {
-                Self::NeoHookean(NeoHookean::new(e.0, nu.0)?)
-            }
-            LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu } => Self::Hencky(Hencky::new(e.0, nu.0)?),
-            LawForm::HenckyJ2 { young_modulus_pa: e, poisson_ratio: nu, strength } => {
-                Self::HenckyJ2(HenckyJ2::new(e.0, nu.0, strength_of(strength)?)?)
-            }
-            LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => {
-                Self::NewtonianFluid(NewtonianFluid::new(k.0, mu.0)?)
-            }
-            LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => {
-                Self::ImprovedHencky(soaked(k.0, g.0)?)
-            }
-            LawForm::CamClay {
-                bulk_parameter,
-                shear_modulus_pa,
-                critical_ratio,
-                plastic_compressibility,
-                preconsolidation_pa,
-                initial_pressure_pa,
-                alpha,
-                gamma,
-            } => {
-                let elasticity = soaked(bulk_parameter.0, shear_modulus_pa.0)?;
-                let clay = CamClay::new(
-                    elasticity,
-                    critical_ratio.0,
-                    plastic_compressibility.0,
-                    preconsolidation_pa.0,
-                    initial_pressure_pa.0,
-                )?;
-                let [alpha, gamma] = [alpha, gamma].map(|shape| shape.map_or(1.0, |x| x.0));
-                Self::CamClay(clay.shaped(alpha, gamma)?)
-            }
-        })
-    }
-
-    /// Speed of pressure waves (m/s) at a density (kg/m³).
-    pub(super) fn wave_speed(&self, density: f64) -> f64 {
-        match self {
-            Self::NeoHookean(law) => law.wave_speed(density),
-            Self::Hencky(law) => law.wave_speed(density),
-            Self::HenckyJ2(law) => law.wave_speed(density),
-            Self::NewtonianFluid(law) => law.wave_speed(density),
-            Self::ImprovedHencky(law) => law.wave_speed(density),
-            Self::CamClay(law) => law.wave_speed(density),
+/// The law of a form, in a body of the given porosity.
+pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw, mpm_core::Error> {
+    let soaked = |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
+    Ok(match form {
+        LawForm::NeoHookean { young_modulus_pa: e, poisson_ratio: nu } => NeoHookean::new(e.0, nu.0)?.into(),
+        LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu } => Hencky::new(e.0, nu.0)?.into(),
+        LawForm::HenckyJ2 { young_modulus_pa: e, poisson_ratio: nu, strength } => {
+            HenckyJ2::new(e.0, nu.0, strength_of(strength)?)?.into()
         }
-    }
+        LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => NewtonianFluid::new(k.0, mu.0)?.into(),
+        LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => soaked(k.0, g.0)?.into(),
+        LawForm::CamClay {
+            bulk_parameter,
+            shear_modulus_pa,
+            critical_ratio,
+            plastic_compressibility,
+            preconsolidation_pa,
+            initial_pressure_pa,
+            alpha,
+            gamma,
+        } => {
+            let elasticity = soaked(bulk_parameter.0, shear_modulus_pa.0)?;
+            let clay = CamClay::new(
+                elasticity,
+                critical_ratio.0,
+                plastic_compressibility.0,
+                preconsolidation_pa.0,
+                initial_pressure_pa.0,
+            )?;
+            let [alpha, gamma] = [alpha, gamma].map(|shape| shape.map_or(1.0, |x| x.0));
+            clay.shaped(alpha, gamma)?.into()
+        }
+    })
 }
 
 impl Source {

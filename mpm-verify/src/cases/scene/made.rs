@@ -34,7 +34,7 @@ impl<const D: usize> Setup<D> {
             format!(
                 "Phase {}: speed of sound {:.1} m/s{strength}; {} steps of {:.3e} s.",
                 phase.name,
-                phase.material.wave_speed(density),
+                phase.law.wave_speed(density),
                 phase.steps,
                 phase.dt
             )

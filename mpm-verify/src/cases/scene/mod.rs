@@ -10,7 +10,6 @@ mod made;
 mod phase;
 mod setup;
 mod shape;
-mod solving;
 mod watch;
 
 #[cfg(test)]
@@ -26,7 +25,6 @@ use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;
 use shape::Seeds;
-use solving::{Compiled, Solving};
 use std::path::Path;
 use watch::{Course, MASS};
 
@@ -104,12 +102,12 @@ struct Found {
 /// Builds every phase once, so that what is wrong in the last one is said before the first.
 fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error>
 where
-    Compiled: Solving<D>,
+    Scene<D>: Solvable<D>,
 {
     let setup = Setup::<D>::new(source, form)?;
     let mut mass = 0.0;
     for phase in &setup.phases {
-        let run = Compiled::solve(&setup, phase).map_err(|e| setup.fault(source, phase, &e))?;
+        let run = setup.solve(phase).map_err(|e| setup.fault(source, phase, &e))?;
         mass = run.totals().mass;
     }
     let mut all = source.text.clone().into_bytes();
@@ -123,7 +121,7 @@ where
 
 fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error>
 where
-    Compiled: Solving<D>,
+    Scene<D>: Solvable<D>,
 {
     let made = Setup::<D>::new(source, source.form()?)?;
     let course = Course::new(crate::setup::Setup::new(spec, values, made))?;

@@ -1,9 +1,10 @@
 //! The phases of a scene, and how each is solved.
 
 use super::fault::{Line, Source};
-use super::form::{Form, WaterForm};
-use super::law::{Material, shear_strength};
+use super::form::{Form, LawForm, WaterForm};
+use super::law::{law_of, shear_strength};
 use crate::cases::prelude::*;
+use std::sync::Arc;
 
 /// Most rows of a phase.
 const MOST_ROWS: f64 = 1e7;
@@ -13,7 +14,9 @@ const WHOLE: f64 = 1e-3;
 /// A phase.
 pub(super) struct Phase {
     pub(super) name: String,
-    pub(super) material: Material,
+    pub(super) law: SharedLaw,
+    /// Whether the law has no consistent tangent but the exact one.
+    pub(super) clay: bool,
     /// Undrained shear strength at the start (Pa), of a law that has one.
     pub(super) strength: Option<f64>,
     pub(super) steps: u64,
@@ -74,21 +77,21 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
 
 pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Result<Vec<Phase>, Error> {
     let porosity = form.water.as_ref().map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
-    let own = Material::of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
+    let own = law_of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
     let (solver, row) = (form.solver.get_ref(), form.output.get_ref().row_s.0);
     let explicit = matches!(scheme, Scheme::Explicit(_));
     let mut all: Vec<Phase> = Vec::new();
     for phase in &form.phases {
         let given = phase.get_ref();
-        let material = match &given.law {
-            Some(changed) => Material::of(changed, porosity).map_err(|e| source.at(phase, e))?,
-            None => own,
+        let (kind, law) = match &given.law {
+            Some(changed) => (changed, law_of(changed, porosity).map_err(|e| source.at(phase, e))?),
+            None => (form.law.get_ref(), Arc::clone(&own)),
         };
-        if std::mem::discriminant(&material) != std::mem::discriminant(&own) {
+        if std::mem::discriminant(kind) != std::mem::discriminant(form.law.get_ref()) {
             let said = "another kind of law than the scene's: only its constants may change";
             return Err(source.at(phase, said));
         }
-        let speed = material.wave_speed(form.body.get_ref().density_kg_m3.0);
+        let speed = law.wave_speed(form.body.get_ref().density_kg_m3.0);
         let (dt, steps_per_row) = match (solver.time_step_s, solver.cfl) {
             (Some(dt), None) => (dt.0, (row / dt.0).round().max(1.0)),
             (None, Some(cfl)) => {
@@ -119,8 +122,9 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
         }
         all.push(Phase {
             name: given.name.0.clone(),
-            material,
-            strength: shear_strength(given.law.as_ref().unwrap_or(form.law.get_ref())),
+            law,
+            clay: matches!(kind, LawForm::CamClay { .. }),
+            strength: shear_strength(kind),
             steps: steps as u64,
             steps_per_row: steps_per_row as u64,
             dt,

@@ -5,7 +5,6 @@ use super::form::{
     AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, SupportForm,
     WallForm, WallsForm,
 };
-use super::law::Material;
 use super::phase::{Phase, phases, scheme};
 use super::shape::{Seeds, ends, holds, seed, vector};
 use crate::cases::prelude::*;
@@ -16,6 +15,7 @@ use mpm_core::poro::{self, Face, PressureSpace};
 use mpm_core::stage::{
     Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise,
 };
+use std::sync::Arc;
 
 /// Share of the lumped mass with the midpoint rule: with the consistent mass alone a body that flies is singular.
 const LUMPED: f64 = 0.1;
@@ -186,8 +186,24 @@ impl<const D: usize> Setup<D> {
         }
     }
 
-    /// The scene of a phase, of a body of some law.
-    pub(super) fn scene<M: Law>(&self, law: M, phase: &Phase) -> Result<Scene<D, M>, mpm_core::Error> {
+    /// The simulation of a phase at its start.
+    pub(super) fn solve(&self, phase: &Phase) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+    where
+        Scene<D>: Solvable<D>,
+    {
+        let scene = self.scene(phase)?;
+        match self.scheme {
+            Scheme::Explicit(_) => mpm_solvers::solver(self.scheme, scene, self.explicit(phase)?),
+            Scheme::Implicit(_) => mpm_solvers::implicit(self.scheme, scene, self.implicit(phase)),
+            Scheme::Poro(_) => {
+                let water = self.water(&scene.body.particles)?;
+                mpm_solvers::poro(self.scheme, scene, water, self.poro(phase))
+            }
+        }
+    }
+
+    /// The scene of a phase.
+    fn scene(&self, phase: &Phase) -> Result<Scene<D>, mpm_core::Error> {
         let body = self.form.body.get_ref();
         let Seeds { places, volumes, velocities } = &self.seeds;
         let (density, lattice) = (body.density_kg_m3.0, self.spacing.powi(D as i32));
@@ -204,7 +220,7 @@ impl<const D: usize> Setup<D> {
         let contacts = self.contacts(&phase.name)?;
         Ok(Scene {
             grid: self.grid,
-            body: Body::new(law, particles)?,
+            body: Body::new(Arc::clone(&phase.law), particles)?,
             loads,
             constraints: self.constraints(&phase.name),
             contacts,
@@ -310,7 +326,7 @@ impl<const D: usize> Setup<D> {
     pub(super) fn poro(&self, phase: &Phase) -> poro::Settings {
         let form = self.form.solver.get_ref();
         let mut settings = poro::Settings::new(phase.dt);
-        if let Material::CamClay(_) = phase.material {
+        if phase.clay {
             settings = settings.tangent(poro::Tangent::Consistent);
         }
         poro::Settings {

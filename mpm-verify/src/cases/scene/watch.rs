@@ -2,7 +2,6 @@
 
 use super::phase::Phase;
 use super::setup::Setup as Made;
-use super::solving::{Compiled, Solving};
 use crate::cases::prelude::*;
 use crate::problem;
 use crate::statistics::checkerboard;
@@ -60,7 +59,7 @@ pub(super) struct Course<const D: usize> {
 
 impl<const D: usize> Course<D>
 where
-    Compiled: Solving<D>,
+    Scene<D>: Solvable<D>,
 {
     fn phase(&self, seen: &Seen) -> &Phase {
         &self.setup.phases[seen.phase.min(self.setup.phases.len() - 1)]
@@ -139,7 +138,7 @@ fn most_moved<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 
 impl<const D: usize> Problem<D> for Course<D>
 where
-    Compiled: Solving<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Made<D>;
     type Seen = Seen;
@@ -172,7 +171,7 @@ where
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
-        Compiled::solve(&self.setup, self.phase(seen))
+        self.setup.solve(self.phase(seen))
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut problem::Phase<D>) -> Result<Row, mpm_core::Error> {

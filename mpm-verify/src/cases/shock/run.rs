@@ -73,7 +73,7 @@ impl Bar {
     }
 
     /// A simulation of the bar with the law `law`.
-    fn with<M: Solvable<1>>(&self, law: M) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
+    fn with(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
         let h = self.setup.h;
         let size = self.setup.pitch();
         let cells = (LENGTH / h).round() as usize;

@@ -129,7 +129,7 @@ impl<const D: usize> Ground<D> {
         setup: &Setup<P>,
         strength: Strength,
         rise: f64,
-    ) -> Result<Scene<D, HenckyJ2>, mpm_core::Error> {
+    ) -> Result<Scene<D>, mpm_core::Error> {
         let particles = setup.particles_at(self.seed(), self.spacing, self.slope.density)?;
         let weight = Gravity(Box::new(move |time| {
             let mut g = [0.0; D];

@@ -182,7 +182,7 @@ impl Stretching {
 
 impl<const D: usize> Problem<D> for Stretching
 where
-    NeoHookean: Solvable<D> + Solved<D>,
+    Scene<D>: Solvable<D>,
 {
     type Parameters = Stretch;
     type Seen = Observed;

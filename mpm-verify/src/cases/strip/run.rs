@@ -6,7 +6,7 @@ use mpm_core::Error::{NoConvergence, Singular};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
-use mpm_solvers::Soaked;
+use mpm_solvers::Solvable;
 use std::array::from_fn;
 
 /// Side of the soil (m).
@@ -167,7 +167,10 @@ impl Setup<Strip> {
     }
 
     /// The simulation at its start, of soil of the law `law`.
-    fn ground<const D: usize, M: Law + Soaked<D>>(&self, law: M) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn ground<const D: usize>(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
+    where
+        Scene<D>: Solvable<D>,
+    {
         let (h, up) = (self.h, D - 1);
         let cells = |length: f64| (length / h).round() as usize;
         let mut axes = [Axis::walls(0.0, cells(SIDE)); D];
