@@ -3,7 +3,7 @@
 use super::algebra::{dot, norm};
 use super::elements::Elements;
 use super::linear::Direct;
-use super::{GHOST, Interpolation, Setting, Solver, contact};
+use super::{GHOST, Setting, Solver, contact};
 use crate::error::Cause;
 use nalgebra::SVector;
 
@@ -54,7 +54,7 @@ fn in_space<const D: usize>(x: &[f64; D]) -> [f64; 3] {
     std::array::from_fn(|a| x.get(a).copied().unwrap_or(f64::NAN))
 }
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// The factors of the stiffness at the last equilibrium.
     fn factors(&self, setting: &Setting<D>) -> Option<Direct> {
         let pattern = &setting.pattern;
@@ -121,7 +121,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
         let soft = SOFT_RIM * self.moduli.young() * cell / (h * h) * whole;
         if dot(&particles.volume, &moved) < HARDLY_SEEN * cell * whole && rim.energy.abs() < soft {
             let (node, mut at) = (most(&size), [f64::NAN; D]);
-            self.functions.for_each_node(|k, x| at = if k == node { x } else { at });
+            self.functions.for_each_node(&mut |k, x| at = if k == node { x } else { at });
             return Some(Cause::Rim(in_space(&at), seen[node]));
         }
         let body = self.softest(setting, &mut direct, &seen)?;

@@ -6,13 +6,13 @@ use super::elements::Elements;
 use super::equilibrium::{Step, Trial};
 use super::failure::Failure;
 use super::system::Solution;
-use super::{Interpolation, Setting, Solver};
+use super::{Setting, Solver};
 use crate::monitor::Residual;
 use crate::room::Room;
 use crate::space::{determinant, stretch_of_volume};
 use nalgebra::SVector;
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// The trial at the end of a step, where the equations hold elsewhere.
     pub(super) fn end_of_step(
         &mut self,
@@ -34,7 +34,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
     /// The places (m) to which a trial moves the particles.
     pub(super) fn places_after(&self, elements: &Elements<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
         let particles = &self.scene.body.particles;
-        let room = Room::new(self.functions.grid(), particles.half_size.map(I::beyond_wall));
+        let room = Room::new(self.functions.grid(), particles.half_size.map(|l| self.functions.beyond_wall(l)));
         let mut places = particles.position.clone();
         for (p, x) in places.iter_mut().enumerate() {
             let (nodes, w, _) = elements.seen(p);

@@ -5,7 +5,7 @@
 //! it, however often a step is tried.
 
 use super::elements::Elements;
-use super::{Interpolation, Remedy, Solver};
+use super::{Remedy, Solver};
 use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::error::{Error, Fault, require};
 use crate::particles::Particles;
@@ -184,7 +184,7 @@ pub(super) fn check<const D: usize>(
     Ok(())
 }
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// The contacts as they are at `time` (s).
     pub(super) fn obstacles(&self, time: f64) -> Vec<Obstacle<D>> {
         let contacts = self.scene.contacts.iter();

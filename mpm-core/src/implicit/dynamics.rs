@@ -4,7 +4,7 @@ use super::equilibrium::Step;
 use super::failure::Failure;
 use super::settings::TimeRule;
 use super::system::Solution;
-use super::{Interpolation, Setting, Solver};
+use super::{Setting, Solver};
 use nalgebra::SVector;
 
 /// Share of the heaviest node's mass below which a node's is rounding.
@@ -13,7 +13,7 @@ const WEIGHTLESS: f64 = 1e-12;
 /// A field on the nodes.
 type Field<const D: usize> = Vec<SVector<f64, D>>;
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Gives the particles the velocities at the end of a step of `dt` (s), under the `external` forces (N) where the
     /// equations hold.
     ///

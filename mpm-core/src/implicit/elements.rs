@@ -40,7 +40,7 @@ pub(crate) struct Elements<const D: usize> {
 }
 
 /// The order of particles by element, stable within one.
-pub(crate) fn order<const D: usize, I: Interpolation<D>>(functions_of: &I, domains: Domains<D>) -> Vec<u32> {
+pub(crate) fn order<const D: usize>(functions_of: &dyn Interpolation<D>, domains: Domains<D>) -> Vec<u32> {
     let elements = of_domains(functions_of, domains);
     let mut order: Vec<u32> = (0..elements.len() as u32).collect();
     order.sort_by_key(|p| elements[*p as usize]);
@@ -48,7 +48,7 @@ pub(crate) fn order<const D: usize, I: Interpolation<D>>(functions_of: &I, domai
 }
 
 /// The element of every domain.
-pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(functions_of: &I, domains: Domains<D>) -> Vec<usize> {
+pub(crate) fn of_domains<const D: usize>(functions_of: &dyn Interpolation<D>, domains: Domains<D>) -> Vec<usize> {
     let mut functions = Functions::new();
     let element = |(x, half_size): (&[f64; D], [f64; D])| {
         functions_of.functions(x, &half_size, &mut functions);
@@ -59,7 +59,7 @@ pub(crate) fn of_domains<const D: usize, I: Interpolation<D>>(functions_of: &I, 
 
 impl<const D: usize> Elements<D> {
     /// Elements of particles that stand in their [`order`].
-    pub(crate) fn new<I: Interpolation<D>>(functions_of: &I, originals: &[usize], domains: Domains<D>) -> Self {
+    pub(crate) fn new(functions_of: &dyn Interpolation<D>, originals: &[usize], domains: Domains<D>) -> Self {
         let support = functions_of.support();
         let count = domains.centre.len();
         let mut elements = Self {

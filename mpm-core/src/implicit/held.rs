@@ -30,12 +30,12 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
 ///
 /// # Errors
 /// A constraint holds nothing.
-pub(crate) fn components<const D: usize, I: Interpolation<D>>(
-    functions: &I,
+pub(crate) fn components<const D: usize>(
+    functions: &dyn Interpolation<D>,
     scene: &Scene<D>,
 ) -> Result<Vec<[Option<Held>; D]>, Error> {
     let mut held = vec![[None; D]; functions.len()];
-    functions.for_each_node(|node, position| {
+    functions.for_each_node(&mut |node, position| {
         for (axis, held) in held[node].iter_mut().enumerate() {
             *held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
                 let velocity = c.prescribe(&scene.grid, &position, axis)?;

@@ -12,18 +12,20 @@ use crate::grid::Grid;
 use crate::lattice::Lattice;
 
 /// Functions on a grid.
-pub trait Interpolation<const D: usize>: Sized + Send + Sync {
+pub trait Interpolation<const D: usize>: Send + Sync + 'static {
     /// The functions on `grid`.
     ///
     /// # Errors
     /// A grid that these functions do not live on.
-    fn on(grid: Grid<D>) -> Result<Self, Error>;
+    fn on(grid: Grid<D>) -> Result<Self, Error>
+    where
+        Self: Sized;
 
     /// The grid.
     fn grid(&self) -> &Grid<D>;
 
     /// Cells of an element along each axis.
-    fn span() -> [usize; D] {
+    fn span(&self) -> [usize; D] {
         [1; D]
     }
 
@@ -39,7 +41,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     fn support(&self) -> usize;
 
     /// Calls `visit` with every node and its position (m).
-    fn for_each_node(&self, visit: impl FnMut(usize, [f64; D]));
+    fn for_each_node(&self, visit: &mut dyn FnMut(usize, [f64; D]));
 
     /// Original of every node that is a periodic image; other nodes are their own.
     fn originals(&self) -> Vec<usize>;
@@ -48,7 +50,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
     fn functions(&self, x: &[f64; D], half_size: &[f64; D], functions: &mut Functions<D>);
 
     /// How far (m) a particle of half size `half_size` (m) may pass a wall.
-    fn beyond_wall(half_size: f64) -> f64;
+    fn beyond_wall(&self, half_size: f64) -> f64;
 
     /// Whether these functions offer a stabilisation.
     fn offers(&self, stabilisation: Stabilisation) -> Result<(), Error>;
@@ -64,7 +66,7 @@ pub trait Interpolation<const D: usize>: Sized + Send + Sync {
 /// Hats, or their means over the domains of particles.
 pub trait OfHats<const D: usize>: Interpolation<D> {
     /// Whether they are means.
-    const MEANS: bool;
+    fn means(&self) -> bool;
 
     /// The hats of the same nodes at a point `x` (m).
     fn hats(&self, x: &[f64; D], functions: &mut Functions<D>);
@@ -73,7 +75,9 @@ pub trait OfHats<const D: usize>: Interpolation<D> {
 macro_rules! of_hats {
     ($nodes:literal, $basis:ty, means: $means:literal) => {
         impl<const D: usize> OfHats<D> for Lattice<D, $nodes, $basis> {
-            const MEANS: bool = $means;
+            fn means(&self) -> bool {
+                $means
+            }
 
             fn hats(&self, x: &[f64; D], functions: &mut Functions<D>) {
                 functions.set(&self.stencil_of_point(x));
@@ -102,7 +106,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         S.pow(D as u32)
     }
 
-    fn for_each_node(&self, mut visit: impl FnMut(usize, [f64; D])) {
+    fn for_each_node(&self, visit: &mut dyn FnMut(usize, [f64; D])) {
         Self::for_each_node(self, |node, index| visit(node, self.position(index)));
     }
 
@@ -116,7 +120,7 @@ impl<const D: usize, const S: usize, B: Pieces<S>> Interpolation<D> for Lattice<
         functions.set(&self.stencil(x, half_size));
     }
 
-    fn beyond_wall(half_size: f64) -> f64 {
+    fn beyond_wall(&self, half_size: f64) -> f64 {
         B::beyond_wall(half_size)
     }
 

@@ -4,14 +4,13 @@
 use super::linear::Direct;
 use super::unknowns::Pattern;
 use super::{Interpolation, Solver, contact};
-use crate::grid::Grid;
 use crate::ledger::Ledger;
 use crate::memory::{Memory, MemoryError, Saved, require};
 use crate::particles::Particles;
 use crate::room::Room;
 use crate::scene::SavedStages;
 
-impl<const D: usize, I: Interpolation<D>> Memory for Solver<D, I> {
+impl<const D: usize> Memory for Solver<D> {
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(
             self.scene.body.save()?,
@@ -38,27 +37,28 @@ impl<const D: usize, I: Interpolation<D>> Memory for Solver<D, I> {
     }
 }
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Replaces the body by one that was saved, all of whose particles must be on the grid.
     fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let grid = *self.functions.grid();
+        let functions = self.functions.as_ref();
         let body = &mut self.scene.body;
-        body.restore(saved, |particles| check::<D, I>(&grid, particles))
+        body.restore(saved, |particles| check(functions, particles))
     }
 
     /// Goes on with the body and the sticks of another run.
     pub(super) fn go_on_with(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let (body, sticks): (Saved, Vec<Vec<f64>>) = saved.read("a body with its sticks")?;
-        let (grid, scene) = (*self.functions.grid(), &mut self.scene);
-        scene.body.go_on_with(&body, |particles| check::<D, I>(&grid, particles))?;
+        let (functions, scene) = (self.functions.as_ref(), &mut self.scene);
+        scene.body.go_on_with(&body, |particles| check(functions, particles))?;
         scene.take_sticks(&sticks);
         Ok(())
     }
 }
 
 /// That all particles are on the grid and no larger than a cell.
-fn check<const D: usize, I: Interpolation<D>>(grid: &Grid<D>, particles: &Particles<D>) -> Result<(), MemoryError> {
-    let room = Room::new(grid, particles.half_size.map(I::beyond_wall));
+fn check<const D: usize>(functions: &dyn Interpolation<D>, particles: &Particles<D>) -> Result<(), MemoryError> {
+    let grid = functions.grid();
+    let room = Room::new(grid, particles.half_size.map(|l| functions.beyond_wall(l)));
     for l in particles.half_size {
         let fits = l > 0.0 && l <= 0.5 * grid.h;
         require(fits, "half_size", l, "positive, at most half a cell (m)")?;

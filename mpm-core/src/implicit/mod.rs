@@ -79,11 +79,11 @@ fn steps_of_load<const D: usize>(earlier: &[SVector<f64, D>], loads: &[SVector<f
     if rise > 0.0 { (whole / rise).sqrt().clamp(1.0, MOST_STEPS) } else { 1.0 }
 }
 
-/// The quasi-static solver for one body on the functions `I`.
-pub struct Solver<const D: usize, I> {
+/// The implicit solver for one body.
+pub struct Solver<const D: usize> {
     scene: Scene<D>,
     settings: Settings,
-    functions: I,
+    functions: Box<dyn Interpolation<D>>,
     /// Original of every node.
     originals: Vec<usize>,
     /// Constraint of every component of every node, if held.
@@ -106,7 +106,7 @@ struct Setting<const D: usize> {
     obstacles: Vec<Obstacle<D>>,
 }
 
-impl<const D: usize, I: Interpolation<D>> Simulation<D> for Solver<D, I> {
+impl<const D: usize> Simulation<D> for Solver<D> {
     /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.settings.dt);
@@ -205,11 +205,11 @@ impl<const D: usize> Setting<D> {
     }
 }
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
         let particles = &self.scene.body.particles;
-        let elements = Elements::new(&self.functions, &self.originals, Domains::of(particles));
+        let elements = Elements::new(self.functions.as_ref(), &self.originals, Domains::of(particles));
         let sharp = self.settings.remedy == Remedy::FbarConsistent;
         let average = Average::new(&elements, self.functions.len(), &particles.volume, sharp);
         (elements, average)
@@ -227,7 +227,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
                 let strength = factor * self.moduli.young();
                 self.functions.ghost(strength, &self.kept_stiffness(&elements, dt), D, within)
             }
-            Stabilisation::Soft(factor) => soft::penalties(&self.functions, factor, self.moduli),
+            Stabilisation::Soft(factor) => soft::penalties(self.functions.as_ref(), factor, self.moduli),
         };
         for node in penalties.iter_mut().flat_map(|p| &mut p.node) {
             *node = self.originals[*node];
@@ -275,7 +275,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
 
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
-        let order = elements::order(&self.functions, Domains::of(&self.scene.body.particles));
+        let order = elements::order(self.functions.as_ref(), Domains::of(&self.scene.body.particles));
         if !order.is_sorted() {
             self.scene.body.permute(&order);
             self.ledger.work.sorts += 1;

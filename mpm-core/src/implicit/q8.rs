@@ -76,7 +76,7 @@ impl Interpolation<2> for Serendipity {
         &self.grid
     }
 
-    fn span() -> [usize; 2] {
+    fn span(&self) -> [usize; 2] {
         Self::SPAN
     }
 
@@ -88,7 +88,7 @@ impl Interpolation<2> for Serendipity {
         NODES
     }
 
-    fn for_each_node(&self, mut visit: impl FnMut(usize, [f64; 2])) {
+    fn for_each_node(&self, visit: &mut dyn FnMut(usize, [f64; 2])) {
         let place = |axis: usize, k: usize| self.grid.axes[axis].lo + 0.5 * self.size[axis] * k as f64;
         for i in 0..self.points(0) {
             for j in 0..self.points(1) {
@@ -122,7 +122,7 @@ impl Interpolation<2> for Serendipity {
         }
     }
 
-    fn beyond_wall(_half_size: f64) -> f64 {
+    fn beyond_wall(&self, _half_size: f64) -> f64 {
         0.0
     }
 
@@ -158,7 +158,7 @@ mod tests {
         let grid = Grid::new(0.25, [Axis::open(-1.0, 10), Axis::open(0.5, 9)]).unwrap();
         let elements = Serendipity::on(grid).unwrap();
         let mut place = vec![[f64::NAN; 2]; elements.len()];
-        elements.for_each_node(|node, x| place[node] = x);
+        elements.for_each_node(&mut |node, x| place[node] = x);
         let mut seen = Functions::new();
         let field = |[x, y]: [f64; 2]| 1.0 + x - 2.0 * y + x * x + 3.0 * x * y - y * y;
         for k in 0..40 {

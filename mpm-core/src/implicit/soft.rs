@@ -7,15 +7,15 @@ use super::pieces::gauss;
 use nalgebra::DMatrix;
 
 /// Penalties of all elements.
-pub(super) fn penalties<const D: usize, I: Interpolation<D>>(
-    functions_of: &I,
+pub(super) fn penalties<const D: usize>(
+    functions_of: &dyn Interpolation<D>,
     factor: f64,
     moduli: Moduli,
 ) -> Vec<Penalty> {
     let grid = functions_of.grid();
     let rule: Vec<(f64, f64)> = gauss(functions_of.points()).collect();
-    let elements: [usize; D] = std::array::from_fn(|a| grid.axes[a].cells / I::span()[a]);
-    let lengths = I::span().map(|cells| cells as f64 * grid.h);
+    let elements: [usize; D] = std::array::from_fn(|a| grid.axes[a].cells / functions_of.span()[a]);
+    let lengths = functions_of.span().map(|cells| cells as f64 * grid.h);
     let mut found = Vec::new();
     let mut functions = Functions::new();
     for k in 0..elements.iter().product() {

@@ -12,14 +12,18 @@ use crate::room::Room;
 use crate::scene::Scene;
 use nalgebra::Matrix3;
 
-impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// A solver of `scene` with `settings` at time zero.
     ///
     /// # Errors
     /// A setting or particle that is not allowed; a stabilisation that the functions do not offer; F̄ with a law that is
     /// not conservative or friction that can slip; a contact across a periodic axis; a constraint on one side only
     /// or that holds no node of its own; a particle off the grid.
-    pub fn new(mut scene: Scene<D>, settings: Settings) -> Result<Self, Error> {
+    pub fn new<I: Interpolation<D>>(scene: Scene<D>, settings: Settings) -> Result<Self, Error> {
+        Self::on(Box::new(I::on(scene.grid)?), scene, settings)
+    }
+
+    fn on(functions: Box<dyn Interpolation<D>>, mut scene: Scene<D>, settings: Settings) -> Result<Self, Error> {
         settings.check()?;
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
@@ -30,7 +34,6 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
             1.0,
             "remedy none: the law has a rate of stress or a viscosity",
         )?;
-        let functions = I::on(scene.grid)?;
         functions.offers(settings.stabilisation)?;
         let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
         let inertia_alone = settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
@@ -44,7 +47,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
         let particles = &mut scene.body.particles;
         let mut ledger = Ledger::new(particles.len(), functions.len(), scene.constraints.len());
         ledger.convergence = Some(Convergence::default());
-        let room = Room::new(&scene.grid, particles.half_size.map(I::beyond_wall));
+        let room = Room::new(&scene.grid, particles.half_size.map(|l| functions.beyond_wall(l)));
         for (k, x) in particles.position.iter_mut().enumerate() {
             let placed = room.place(x);
             placed.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?;
@@ -70,7 +73,7 @@ impl<const D: usize, I: Interpolation<D>> Solver<D, I> {
         }
         let mut solver = Self {
             originals: functions.originals(),
-            held: held::components(&functions, &scene)?,
+            held: held::components(functions.as_ref(), &scene)?,
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
             advance: Vec::new(),

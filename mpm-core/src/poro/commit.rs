@@ -1,9 +1,9 @@
 //! Commit of a solution: new positions, states, domains and pressures; sums of forces and water.
 
+use super::Solver;
 use super::pores::{check_width, grown, keep_before_walls};
 use super::step::{Setting, Trial};
 use super::unknowns::Place;
-use super::{OfHats, Solver};
 use crate::implicit::Functions;
 use crate::implicit::algebra::dot;
 use crate::implicit::failure::Failure;
@@ -12,7 +12,7 @@ use crate::room::Room;
 use crate::space::determinant;
 use nalgebra::SVector;
 
-impl<const D: usize, I: OfHats<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Makes a trial the state of the body.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// The places (m) to which a trial moves the particles.
     fn places_after(&self, setting: &Setting<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
         let mut places = self.scene.body.particles.position.clone();
-        let grid = self.solid_space.functions.grid();
+        let functions = &self.solid_space.functions;
         for (p, x) in places.iter_mut().enumerate() {
             let (nodes, w, _) = setting.solid.seen(p);
             for (node, w) in nodes.iter().zip(w) {
@@ -57,7 +57,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
                     *x += w * u;
                 }
             }
-            let room = Room::new(grid, self.pores.half_size[p].map(I::beyond_wall));
+            let room = Room::new(functions.grid(), self.pores.half_size[p].map(|l| functions.beyond_wall(l)));
             room.place(x).map_err(|fault| Failure::Particle(p, fault))?;
         }
         Ok(places)
@@ -74,7 +74,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
         for (p, half_size) in domains.iter_mut().enumerate() {
             let f = &trial.f[p];
             let before = *half_size;
-            if I::MEANS {
+            if space.functions.means() {
                 let x = particles.position[p];
                 for corner in 0..1_usize << D {
                     let side = |a: usize| if corner >> a & 1 == 1 { 1.0 } else { -1.0 };
@@ -93,8 +93,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
                 }
             }
             *half_size = grown(&before, half_size, determinant(f));
-            let h = space.functions.grid().h;
-            check_width::<D, I>(half_size, h).map_err(|fault| Failure::Particle(p, fault))?;
+            check_width(space.functions.as_ref(), half_size).map_err(|fault| Failure::Particle(p, fault))?;
         }
         Ok(domains)
     }

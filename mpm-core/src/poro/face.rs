@@ -4,7 +4,7 @@ use super::Space;
 use super::pores::Pores;
 use crate::error::{Error, Fault, require};
 use crate::frame::Frame;
-use crate::implicit::{Functions, OfHats};
+use crate::implicit::Functions;
 use crate::particles::Particles;
 use crate::stage::End;
 
@@ -130,9 +130,9 @@ impl<const D: usize> Face<D> {
     ///
     /// # Errors
     /// A particle one of whose corners has a share on a node that is not `seen` by any particle, and so bears nothing.
-    pub(super) fn corners<I: OfHats<D>>(
+    pub(super) fn corners(
         &self,
-        space: &Space<I>,
+        space: &Space<D>,
         seen: impl Fn(usize) -> bool,
         particles: &Particles<D>,
         pores: &Pores<D>,

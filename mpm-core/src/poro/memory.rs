@@ -2,7 +2,7 @@
 //! of its matrices, so that a new one is counted as such.
 
 use super::pores::Pores;
-use super::{OfHats, Solver, Tangent};
+use super::{Solver, Tangent};
 use crate::implicit::linear::Direct;
 use crate::implicit::unknowns::Pattern;
 use crate::ledger::Ledger;
@@ -11,7 +11,7 @@ use crate::monitor::WaterBalance;
 use crate::room::Room;
 use crate::scene::SavedStages;
 
-impl<const D: usize, I: OfHats<D>> Memory for Solver<D, I> {
+impl<const D: usize> Memory for Solver<D> {
     fn save(&self) -> Result<Saved, MemoryError> {
         let of_water = (self.balance, &self.nodal_pressure);
         Saved::of(&(self.save_body()?, &self.ledger, self.scene.save_stages()?, &self.direct.pattern, of_water))
@@ -35,7 +35,7 @@ impl<const D: usize, I: OfHats<D>> Memory for Solver<D, I> {
     }
 }
 
-impl<const D: usize, I: OfHats<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Body and pores as bytes.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(self.scene.body.save()?, &self.pores))
@@ -45,8 +45,9 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let (body, pores): (Saved, Pores<D>) = saved.read("a body with water")?;
         pores.check_against(&self.pores)?;
-        let grid = *self.solid_space.functions.grid();
-        let widest = if I::MEANS { 0.5 * grid.h } else { f64::INFINITY };
+        let functions = self.solid_space.functions.as_ref();
+        let grid = functions.grid();
+        let widest = if functions.means() { 0.5 * grid.h } else { f64::INFINITY };
         for l in pores.half_size.iter().flatten() {
             let fits = *l > 0.0 && *l <= widest;
             require(fits, "half_size", *l, "positive, of means at most half a cell (m)")?;
@@ -54,7 +55,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
         let half_size = &pores.half_size;
         self.scene.body.restore(&body, |particles| {
             for (x, l) in particles.position.iter().zip(half_size) {
-                let room = Room::new(&grid, l.map(I::beyond_wall));
+                let room = Room::new(grid, l.map(|l| functions.beyond_wall(l)));
                 let inside = room.place(&mut x.clone()).is_ok();
                 require(inside, "position", x[0], "on the grid (m)")?;
             }

@@ -46,18 +46,18 @@ use system::System;
 use unknowns::{Place, Unknowns};
 
 /// Functions on a grid, and of every node the one that it is an image of.
-struct Space<I> {
-    functions: I,
+struct Space<const D: usize> {
+    functions: Box<dyn OfHats<D>>,
     originals: Vec<usize>,
 }
 
-/// The solver for one body of solid and water on functions `I` of displacement and pressure.
-pub struct Solver<const D: usize, I> {
+/// The solver for one body of solid and water with functions of one kind for displacement and pressure.
+pub struct Solver<const D: usize> {
     scene: Scene<D>,
     water: Water<D>,
     settings: Settings,
-    solid_space: Space<I>,
-    water_space: Space<I>,
+    solid_space: Space<D>,
+    water_space: Space<D>,
     pores: Pores<D>,
     /// Constraint of every component of every node of the displacement, if held.
     held: Vec<[Option<Held>; D]>,
@@ -73,7 +73,7 @@ pub struct Solver<const D: usize, I> {
     nodal_pressure: Vec<f64>,
 }
 
-impl<const D: usize, I: OfHats<D>> Simulation<D> for Solver<D, I> {
+impl<const D: usize> Simulation<D> for Solver<D> {
     /// A step, in parts if the whole of it finds no solution.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.duration());
@@ -118,7 +118,7 @@ impl<const D: usize, I: OfHats<D>> Simulation<D> for Solver<D, I> {
 
     fn pressure_nodes(&self) -> Vec<([f64; D], f64)> {
         let mut nodes = Vec::new();
-        self.water_space.functions.for_each_node(|node, place| {
+        self.water_space.functions.for_each_node(&mut |node, place| {
             let pressure = self.nodal_pressure[node];
             if !pressure.is_nan() && self.water_space.originals[node] == node {
                 nodes.push((place, pressure));
@@ -158,7 +158,7 @@ impl<const D: usize, I: OfHats<D>> Simulation<D> for Solver<D, I> {
     }
 }
 
-impl<const D: usize, I: OfHats<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Duration of the present step (s).
     fn duration(&self) -> f64 {
         self.settings.dt * self.settings.growth.powi(self.ledger.work.steps as i32)
@@ -172,7 +172,8 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     fn sort(&mut self) {
         let particles = &self.scene.body.particles;
         let domains = self.pores.domains(particles);
-        let [of_solid, of_water] = [&self.solid_space, &self.water_space].map(|s| of_domains(&s.functions, domains));
+        let [of_solid, of_water] =
+            [&self.solid_space, &self.water_space].map(|s| of_domains(s.functions.as_ref(), domains));
         let mut order: Vec<u32> = (0..particles.len() as u32).collect();
         order.sort_by_key(|p| (of_solid[*p as usize], of_water[*p as usize]));
         if !order.is_sorted() {
@@ -208,7 +209,8 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
     /// The functions of displacement and pressure at the particles.
     fn elements(&self) -> [Elements<D>; 2] {
         let domains = self.pores.domains(&self.scene.body.particles);
-        [&self.solid_space, &self.water_space].map(|space| Elements::new(&space.functions, &space.originals, domains))
+        [&self.solid_space, &self.water_space]
+            .map(|space| Elements::new(space.functions.as_ref(), &space.originals, domains))
     }
 
     /// The unknowns of a step of `dt` (s) on the functions of displacement and pressure.
@@ -292,7 +294,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
             return before;
         }
         let functions = &self.water_space.functions;
-        let told = unknowns::extrapolated(water, functions, &self.scene.body.particles, &self.pores);
+        let told = unknowns::extrapolated(water, functions.as_ref(), &self.scene.body.particles, &self.pores);
         for (node, place) in unknowns.pressure.iter().enumerate() {
             if *place != Place::Unseen {
                 let known = self.nodal_pressure[node];

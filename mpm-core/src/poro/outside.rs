@@ -1,17 +1,17 @@
 //! External actions in a step: forces of faces and plates on the nodes, and drains. Each sum must equal the whole of
 //! its face; otherwise the step fails.
 
+use super::Solver;
 use super::face::{Acts, Corner, Face};
 use super::step::Drain;
 use super::unknowns::{Place, Unknowns};
-use super::{OfHats, Solver};
 use crate::implicit::failure::Failure;
 use nalgebra::SVector;
 
 /// Share of a whole that its sum may lack: rounding, and the loss of a corner.
 const LACKING: f64 = 1e-9;
 
-impl<const D: usize, I: OfHats<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// Adds to the forces (N) on the nodes at the end of a step of `dt` (s) those of faces and plates, and finds the
     /// corners by which water leaves.
     ///

@@ -43,9 +43,9 @@ impl<const D: usize> Plate<D> {
 ///
 /// # Errors
 /// A plate that moves along no axis, takes no node, or one that a constraint or another plate has too.
-pub(super) fn ties<const D: usize, I: OfHats<D>>(
+pub(super) fn ties<const D: usize>(
     plates: &[Plate<D>],
-    functions: &I,
+    functions: &dyn OfHats<D>,
     held: &[[Option<Held>; D]],
 ) -> Result<Vec<[Option<usize>; D]>, Error> {
     let mut ties = vec![[None; D]; functions.len()];
@@ -53,7 +53,7 @@ pub(super) fn ties<const D: usize, I: OfHats<D>>(
         let axis = plate.axis;
         require(axis < D, "axis of a plate", axis as f64, "one of the grid's")?;
         let (mut taken, mut shared) = (0_u32, 0_u32);
-        functions.for_each_node(|node, place| {
+        functions.for_each_node(&mut |node, place| {
             if (plate.takes)(&place) {
                 let other = held[node][axis].is_some() || ties[node][axis].is_some();
                 shared += u32::from(other);

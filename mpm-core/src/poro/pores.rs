@@ -82,15 +82,15 @@ pub(super) fn grown<const D: usize>(before: &[f64; D], after: &[f64; D], change:
     })
 }
 
-/// Checks that functions `I` on cells of size `h` (m) have means over a domain of half sizes `half_size` (m), if means
+/// Checks that functions have means over a domain of half sizes `half_size` (m), if means
 /// they are: it takes at most a cell.
 ///
 /// # Errors
 /// Half a size in cells that is not positive, or too large; NaN of a box that is turned inside out.
-pub(super) fn check_width<const D: usize, I: OfHats<D>>(half_size: &[f64; D], h: f64) -> Result<(), Fault> {
+pub(super) fn check_width<const D: usize>(functions: &dyn OfHats<D>, half_size: &[f64; D]) -> Result<(), Fault> {
     for l in half_size {
-        let cells = l / h;
-        let fits = cells > 0.0 && (cells <= 0.5 || !I::MEANS);
+        let cells = l / functions.grid().h;
+        let fits = cells > 0.0 && (cells <= 0.5 || !functions.means());
         if !fits {
             return Err(Fault::WideDomain(cells));
         }

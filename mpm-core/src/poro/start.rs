@@ -39,39 +39,47 @@ fn grid_of_pressure<const D: usize>(grid: &Grid<D>, space: PressureSpace) -> Res
 ///
 /// # Errors
 /// A particle off the grid, or whose domain is too wide for its functions.
-pub(super) fn begin<const D: usize, I: OfHats<D>>(
-    grid: &Grid<D>,
+pub(super) fn begin<const D: usize>(
+    functions: &dyn OfHats<D>,
     particles: &mut Particles<D>,
     k: usize,
 ) -> Result<[f64; D], Fault> {
     let (before, f) = (particles.half_size, &particles.delta_f[k]);
     let after = std::array::from_fn(|a| before[a] * f[(a, a)]);
     let mut half_size = grown(&before, &after, particles.jacobian[k]);
-    check_width::<D, I>(&half_size, grid.h)?;
+    let grid = functions.grid();
+    check_width(functions, &half_size)?;
     let x = &mut particles.position[k];
-    Room::new(grid, half_size.map(I::beyond_wall)).place(x)?;
+    Room::new(grid, half_size.map(|l| functions.beyond_wall(l))).place(x)?;
     keep_before_walls(grid, x, &mut half_size);
     Ok(half_size)
 }
 
-impl<I> Space<I> {
-    fn on<const D: usize>(grid: Grid<D>) -> Result<Self, Error>
-    where
-        I: OfHats<D>,
-    {
-        let functions = I::on(grid)?;
+impl<const D: usize> Space<D> {
+    fn on<I: OfHats<D>>(grid: Grid<D>) -> Result<Self, Error> {
+        let functions = Box::new(I::on(grid)?);
         Ok(Self { originals: functions.originals(), functions })
     }
 }
 
-impl<const D: usize, I: OfHats<D>> Solver<D, I> {
+impl<const D: usize> Solver<D> {
     /// A solver of `scene`, whose pores are full of `water`, with `settings` at time zero.
     ///
     /// # Errors
     /// A setting, a property of the water or a particle that is not allowed; a contact, or a constraint on one side
     /// only or that holds no node of its own; a particle off the grid; a face without particles or in an empty cell, a
     /// plate without nodes or on nodes that something else holds.
-    pub fn new(mut scene: Scene<D>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
+    pub fn new<I: OfHats<D>>(scene: Scene<D>, water: Water<D>, settings: Settings) -> Result<Self, Error> {
+        let of_pressure = grid_of_pressure(&scene.grid, settings.pressure_space)?;
+        Self::on([Space::on::<I>(scene.grid)?, Space::on::<I>(of_pressure)?], scene, water, settings)
+    }
+
+    fn on(
+        [solid_space, water_space]: [Space<D>; 2],
+        mut scene: Scene<D>,
+        water: Water<D>,
+        settings: Settings,
+    ) -> Result<Self, Error> {
         settings.check(scene.body.law.conservative())?;
         let contacts = scene.contacts.len();
         require(
@@ -83,18 +91,16 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
         held::check(&scene.constraints)?;
         let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
         positive(moduli.mu, "shear modulus of a body with water", "positive (Pa)")?;
-        let solid_space: Space<I> = Space::on(scene.grid)?;
-        let water_space: Space<I> = Space::on(grid_of_pressure(&scene.grid, settings.pressure_space)?)?;
         let mut drained = vec![false; water_space.functions.len()];
-        water_space.functions.for_each_node(|node, place| drained[node] = (water.drained)(&place));
+        water_space.functions.for_each_node(&mut |node, place| drained[node] = (water.drained)(&place));
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
         water.check(drains, scene.body.law.porosity())?;
         for face in &water.faces {
             face.check(scene.body.particles.len())?;
         }
-        let held = held::components(&solid_space.functions, &scene)?;
-        let tied = ties(&water.plates, &solid_space.functions, &held)?;
+        let held = held::components(solid_space.functions.as_ref(), &scene)?;
+        let tied = ties(&water.plates, solid_space.functions.as_ref(), &held)?;
         scene.check_half_size()?;
         let particles = &mut scene.body.particles;
         let nodes = solid_space.functions.len() + water_space.functions.len();
@@ -102,7 +108,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
         ledger.convergence = Some(Convergence::default());
         let mut half_size = Vec::with_capacity(particles.len());
         for k in 0..particles.len() {
-            let begun = begin::<D, I>(&scene.grid, particles, k);
+            let begun = begin(solid_space.functions.as_ref(), particles, k);
             half_size.push(begun.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?);
         }
         for (k, j) in particles.jacobian.iter().enumerate() {
@@ -126,7 +132,7 @@ impl<const D: usize, I: OfHats<D>> Solver<D, I> {
             half_size,
         };
         let mut nodal_pressure = vec![f64::NAN; water_space.functions.len()];
-        water_space.functions.for_each_node(|node, place| nodal_pressure[node] = (water.start)(&place));
+        water_space.functions.for_each_node(&mut |node, place| nodal_pressure[node] = (water.start)(&place));
         let solver = Self {
             held,
             tied,

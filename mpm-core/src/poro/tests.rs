@@ -84,7 +84,7 @@ fn uppermost<const D: usize>(x: &[f64; D]) -> bool {
 }
 
 /// A column under a traction on its top, through which its water leaves by a penalty.
-fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D, I> {
+fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D> {
     let scene = standing::<D, _>(porous(), straight);
     let particles = &scene.body.particles;
     let top = (D - 1, End::Hi);
@@ -93,7 +93,7 @@ fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> So
     let water = Water::new(POROSITY, kozeny_carman())
         .face(Face::loaded(particles, topmost, top, move |_| force))
         .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H));
-    Solver::new(scene, water, settings).unwrap()
+    Solver::new::<I>(scene, water, settings).unwrap()
 }
 
 /// A box between walls, all of whose faces move as an affine field does, is strained by it all through; where water may
@@ -118,7 +118,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).ghosts(0.1, 0.01) };
-    let mut solver = Solver::<D, I>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     solver.step().unwrap();
     let exact = law.update(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();
     let p = solver.particles();
@@ -133,7 +133,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let begun = p.reference.iter().map(|x| {
         let particles = Particles::new(vec![*x], volume, 1000.0, [0.25 * H; D]).unwrap();
         let mut body = Body::new(law, particles.deformed(|x| ((f * SVector::from(*x)).into(), f))).unwrap();
-        start::begin::<D, I>(&grid, &mut body.particles, 0).unwrap()
+        start::begin(&I::on(grid).unwrap(), &mut body.particles, 0).unwrap()
     });
     for (begun, stepped) in begun.zip(&solver.pores.half_size) {
         let apart = SVector::from(begun) - SVector::from(*stepped);
@@ -166,7 +166,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
             .drained(|x| x[D - 1] > TOP - 1e-9);
         let scene = standing::<D, _>(porous(), straight);
         let settings = Settings::new(1.0).pressure_space(space).tangent(tangent);
-        let mut solver = Solver::<D, I>::new(scene, water, settings).unwrap();
+        let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
         let p = solver.particles();
         for k in 0..p.len() {
@@ -191,7 +191,7 @@ fn hydrostatic_water_stays_at_rest() {
 fn what_is_not_allowed_is_refused_by_name() {
     let column = || standing::<1, _>(porous(), straight);
     let refused = |water: Water<1>, settings: Settings, what: &str| {
-        let error = Solver::<1, Means<1>>::new(column(), water, settings).err().unwrap();
+        let error = Solver::<1>::new::<Means<1>>(column(), water, settings).err().unwrap();
         assert!(error.to_string().contains(what), "{error}");
     };
     let some = Conductivity::Constant(KAPPA);
@@ -203,7 +203,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     refused(Water::new(POROSITY, dry).drained(|_| true), settings, "conductivity of a body that drains");
     let face = Face::drained(&column().body.particles, topmost, (0, End::Hi), 1.0);
     refused(Water::new(POROSITY, dry).face(face), settings, "conductivity of a body that drains");
-    assert!(Solver::<1, Means<1>>::new(column(), Water::new(POROSITY, dry), settings).is_ok());
+    assert!(Solver::<1>::new::<Means<1>>(column(), Water::new(POROSITY, dry), settings).is_ok());
     let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";
     refused(Water::new(0.3, some), settings, other);
     let negative = Conductivity::KozenyCarman(-1.0);
@@ -224,9 +224,9 @@ fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
     let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
     let equal = Settings::new(1.0).pressure_space(PressureSpace::Equal);
-    let refused = Solver::<1, Hats<1>>::new(scene, water(), Settings::new(1.0));
+    let refused = Solver::<1>::new::<Hats<1>>(scene, water(), Settings::new(1.0));
     assert!(refused.err().unwrap().to_string().contains("even"));
     let mut scene = standing::<1, _>(porous(), straight);
     scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
-    assert!(Solver::<1, Hats<1>>::new(scene, water(), equal).is_ok());
+    assert!(Solver::<1>::new::<Hats<1>>(scene, water(), equal).is_ok());
 }

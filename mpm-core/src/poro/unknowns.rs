@@ -135,15 +135,15 @@ pub(super) fn mapped<const D: usize>(
 
 /// The volume averages at the nodes of what particles extrapolate to there by the pressures and slopes of the last step
 /// (Pa), as they were at its start: exact of affine pressures. No number where there are none.
-pub(super) fn extrapolated<const D: usize, I: OfHats<D>>(
+pub(super) fn extrapolated<const D: usize>(
     elements: &Elements<D>,
-    functions: &I,
+    functions: &dyn OfHats<D>,
     particles: &Particles<D>,
     pores: &Pores<D>,
 ) -> Vec<f64> {
     let grid = functions.grid();
     let mut places = vec![[0.0; D]; functions.len()];
-    functions.for_each_node(|node, place| places[node] = place);
+    functions.for_each_node(&mut |node, place| places[node] = place);
     let mut sums = vec![SVector::<f64, 2>::zeros(); functions.len()];
     elements.scatter(SVector::zeros(), &mut sums, |p, sums| {
         let (nodes, w, _) = elements.seen(p);

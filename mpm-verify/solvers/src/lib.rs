@@ -7,7 +7,7 @@ use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Form, Onto};
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
-use mpm_core::implicit::{self, Interpolation, Serendipity};
+use mpm_core::implicit::{self, Interpolation, OfHats, Serendipity};
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
@@ -115,14 +115,8 @@ macro_rules! solvable {
                     return Err(other_solver("poro"));
                 };
                 match parts.basis {
-                    BasisName::Linear => {
-                        type Hats = Lattice<$dimension, 2, Linear>;
-                        Ok(Box::new(poro::Solver::<$dimension, Hats>::new(self, water, settings)?))
-                    }
-                    BasisName::Gimp => {
-                        type Means = Lattice<$dimension, 3, Gimp>;
-                        Ok(Box::new(poro::Solver::<$dimension, Means>::new(self, water, settings)?))
-                    }
+                    BasisName::Linear => soaked::<$dimension, Lattice<$dimension, 2, Linear>>(self, water, settings),
+                    BasisName::Gimp => soaked::<$dimension, Lattice<$dimension, 3, Gimp>>(self, water, settings),
                     basis => Err(no_such_basis(basis)),
                 }
             }
@@ -156,8 +150,8 @@ fn moved<const D: usize, T: Transfer<D> + 'static>(
 }
 
 /// An implicit solver on functions.
-fn balanced<const D: usize, I: Interpolation<D> + 'static>(scene: Scene<D>, settings: implicit::Settings) -> Built<D> {
-    Ok(Box::new(implicit::Solver::<D, I>::new(scene, settings)?))
+fn balanced<const D: usize, I: Interpolation<D>>(scene: Scene<D>, settings: implicit::Settings) -> Built<D> {
+    Ok(Box::new(implicit::Solver::new::<I>(scene, settings)?))
 }
 
 /// The CFL number that [`mpm_core::explicit::stable_cfl`] gives for a basis, in `dimension` dimensions, with particles whose
@@ -171,6 +165,11 @@ pub fn stable_cfl(basis: BasisName, dimension: usize, half_size: f64) -> Option<
         BasisName::Bspline3 => CubicBSpline::steepness(half_size),
     };
     steepness.map(|s| mpm_core::explicit::stable_cfl(dimension, s))
+}
+
+/// A solver of solid and water on functions.
+fn soaked<const D: usize, I: OfHats<D>>(scene: Scene<D>, water: Water<D>, settings: poro::Settings) -> Built<D> {
+    Ok(Box::new(poro::Solver::new::<I>(scene, water, settings)?))
 }
 
 fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {

@@ -73,8 +73,8 @@ pub(super) struct Field {
 }
 
 impl Field {
-    /// Field of functions `I`; a node whose function is not zero at one of the points `held` (m) is held.
-    pub(super) fn new<I: Interpolation<2>>(functions: &I, cloud: &Cloud, held: &[[f64; 2]]) -> Self {
+    /// Field of functions; a node whose function is not zero at one of the points `held` (m) is held.
+    pub(super) fn new(functions: &dyn Interpolation<2>, cloud: &Cloud, held: &[[f64; 2]]) -> Self {
         let h = functions.grid().h;
         let mut used = vec![false; functions.len()];
         let mut seen = Vec::with_capacity(cloud.places.len());
@@ -97,7 +97,7 @@ impl Field {
             }
         }
         let mut count = 0;
-        functions.for_each_node(|node, place| {
+        functions.for_each_node(&mut |node, place| {
             nodes[node].0 = place;
             if used[node] && nodes[node].1 == Node::Unseen {
                 nodes[node].1 = Node::Free(count);

@@ -4,7 +4,7 @@ use crate::Cause;
 use crate::material::{HenckyJ2, Strength};
 
 fn cause_of(scene: Scene<2>, settings: Settings) -> Cause {
-    Solver::<2, Quadratics<2>>::new(scene, settings).unwrap().cause(false)
+    Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap().cause(false)
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn a_body_at_its_limit_load_gives_way() {
         .constrain(Wall::new(1, End::Lo, WallKind::Fixed))
         .load(BodyForce(Box::new(move |_, t| [limit * t, 0.0])));
     let settings = Settings::new(0.1).stabilised(Stabilisation::Ghost(GHOST));
-    let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap();
     let error = (0..20).find_map(|_| solver.step().err()).unwrap();
     let Error::NoConvergence { time, cause, .. } = error else { panic!("{error}") };
     assert!(time > 1.0 && time < 1.1, "{error}");

@@ -48,7 +48,7 @@ fn the_tangent_of_contact_is_the_slope_of_its_forces() {
 }
 
 /// A block that flies at a floor from a gap (m).
-fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2, Quadratics<2>> {
+fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2> {
     let axes = [Axis::open(0.0, CELLS + 4); 2];
     let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
     for x in &mut scene.body.particles.position {
@@ -57,11 +57,11 @@ fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2, Quadratics<2>> {
     scene.body.particles.velocity.fill([0.1, -SPEED]);
     let contact = floor(&scene.body.particles, gap, FORCE);
     let settings = Settings { tolerance: 1e-12, ..Settings::new(dt).rule(rule) };
-    Solver::new(scene.contact(contact), settings).unwrap()
+    Solver::new::<Quadratics<2>>(scene.contact(contact), settings).unwrap()
 }
 
 /// Energy of body and barrier, with what the lumped mass took (J), and the least gap (m).
-fn energy_and_gap(solver: &Solver<2, Quadratics<2>>) -> [f64; 2] {
+fn energy_and_gap(solver: &Solver<2>) -> [f64; 2] {
     let totals = solver.totals();
     let contact = &solver.scene.contacts[0];
     let gaps = solver.particles().position.iter();
@@ -162,7 +162,7 @@ fn rests<const D: usize, I: Interpolation<2>, M: Law + 'static>(law: M, remedy: 
     let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = scene.constrain_all(rollers).contact(contact).load(Gravity(Box::new(|_| [0.0, -1.0])));
     let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
-    let mut solver = Solver::<2, I>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2>::new::<I>(scene, settings).unwrap();
     solver.step().unwrap();
     let force = solver.on(Part::Contact(0)).force;
     assert!((force[1] + weight).abs() < 1e-8 * weight, "{force:?}");
@@ -188,7 +188,7 @@ fn a_face_across_a_periodic_axis_is_refused() {
     let axes = [Axis::walls(0.0, CELLS), Axis::periodic(0.0, CELLS)];
     let scene = filled(axes, CELLS, Places::Uniform, rubber());
     let contact = floor(&scene.body.particles, 0.1, 1.0);
-    let solver = Solver::<2, Quadratics<2>>::new(scene.contact(contact), Settings::new(1.0));
+    let solver = Solver::<2>::new::<Quadratics<2>>(scene.contact(contact), Settings::new(1.0));
     assert!(solver.err().unwrap().to_string().contains("periodic"));
 }
 

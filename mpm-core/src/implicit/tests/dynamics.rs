@@ -26,9 +26,9 @@ fn rubber() -> NeoHookean {
     NeoHookean::new(YOUNG, POISSON).unwrap()
 }
 
-fn moving<I: Interpolation<2>, M: Law + 'static>(law: M, rule: TimeRule) -> Solver<2, I> {
+fn moving<I: Interpolation<2>, M: Law + 'static>(law: M, rule: TimeRule) -> Solver<2> {
     let settings = Settings { tolerance: 1e-12, ..Settings::new(DT).rule(rule) };
-    Solver::new(tumbling(law), settings).unwrap()
+    Solver::new::<I>(tumbling(law), settings).unwrap()
 }
 
 /// Nothing outside acts: both rules keep linear momentum, and Newton's tolerance does not matter to the midpoint rule.
@@ -83,7 +83,7 @@ fn a_body_falls_freely() {
         }
         let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
         let settings = Settings { tolerance: 1e-13, ..Settings::new(DT).rule(rule) };
-        let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
+        let mut solver = Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap();
         solver.advance(10).unwrap();
         let time: f64 = 10.0 * DT;
         let p = solver.particles();
@@ -105,7 +105,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
     scene.body.particles.velocity.fill([0.0; 2]);
     let settings = Settings::new(DT).rule(MIDPOINT);
     let scene = scene.constrain(plate);
-    let mut solver = Solver::<2, Quadratics<2>>::new(scene, settings).unwrap();
+    let mut solver = Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap();
     for _ in 0..8 {
         solver.step().unwrap();
         let speed = SPEED * smooth_rise(solver.time(), ramp);
@@ -130,7 +130,7 @@ fn swinging() -> Scene<2> {
 /// Positions of the box's particles after 0.08 s in this number of steps, in seeding order.
 fn swung(rule: TimeRule, steps: u32) -> Vec<[f64; 2]> {
     let settings = Settings { tolerance: 1e-12, ..Settings::new(0.08 / f64::from(steps)).rule(rule) };
-    let mut solver = Solver::<2, Quadratics<2>>::new(swinging(), settings).unwrap();
+    let mut solver = Solver::<2>::new::<Quadratics<2>>(swinging(), settings).unwrap();
     solver.advance(steps as usize).unwrap();
     let p = solver.particles();
     p.seeded(|k| p.position[k])
@@ -163,7 +163,7 @@ fn the_rules_agree_between_walls() {
 #[test]
 fn unstable_rules_are_refused() {
     let refused = |rule: TimeRule, what: &str| {
-        let error = Solver::<2, Means<2>>::new(tumbling(rubber()), Settings::new(DT).rule(rule));
+        let error = Solver::<2>::new::<Means<2>>(tumbling(rubber()), Settings::new(DT).rule(rule));
         let error = error.err().unwrap().to_string();
         assert!(error.contains(what), "{error}");
     };

@@ -16,7 +16,7 @@ pub(super) const TOLERANCE: f64 = 1e-12;
 pub(super) const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.1 };
 pub(super) const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 
-type Block = Solver<2, Quadratics<2>>;
+type Block = Solver<2>;
 
 /// K is the slope of the forces of sticks that were stretched before, so far that no trial changes what they do: all
 /// particles that touch do the same.
@@ -47,7 +47,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
     slope_of_the_forces(&solver, remedy);
 }
 
-fn particles_of<const D: usize, I: Interpolation<D>>(solver: &Solver<D, I>) -> usize {
+fn particles_of<const D: usize>(solver: &Solver<D>) -> usize {
     solver.scene.body.particles.len()
 }
 
@@ -85,7 +85,7 @@ pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Se
     let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
     let settings = Settings { tolerance: TOLERANCE, ..settings.stabilised(Stabilisation::Ghost(1e-3)) };
     let scene = scene.contact(contact.with_friction(friction)).load(Gravity(Box::new(gravity)));
-    Solver::new(scene, settings).unwrap()
+    Solver::new::<Quadratics<2>>(scene, settings).unwrap()
 }
 
 pub(super) fn coulomb(stiffness: f64) -> Friction {
@@ -303,6 +303,6 @@ fn friction_with_f_bar_has_to_be_rough() {
         contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))],
         ..full(CELLS, Places::Uniform, rubber())
     };
-    let error = Block::new(scene, settings).err().unwrap().to_string();
+    let error = Block::new::<Quadratics<2>>(scene, settings).err().unwrap().to_string();
     assert!(error.contains("friction coefficient") && error.contains("0.3"), "{error}");
 }

@@ -4,7 +4,7 @@ use super::*;
 use crate::stage::RigidNodes;
 
 /// The ground under a strip that sinks into it.
-fn pressed() -> Solver<2, Quadratics<2>> {
+fn pressed() -> Solver<2> {
     let surface = 8.0 * H;
     let strip = RigidNodes {
         extent: [[f64::NEG_INFINITY, 2.0 * H], [surface - H, f64::INFINITY]],
@@ -16,7 +16,7 @@ fn pressed() -> Solver<2, Quadratics<2>> {
 
 #[test]
 fn a_body_that_is_pressed_on_is_looked_for_where_it_goes() {
-    let residuals = |solver: &Solver<2, _>| solver.convergence().unwrap().residuals.clone();
+    let residuals = |solver: &Solver<2>| solver.convergence().unwrap().residuals.clone();
     let mut straight = pressed();
     straight.step().unwrap();
     let first = residuals(&straight)[0];

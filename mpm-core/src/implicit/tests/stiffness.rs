@@ -5,14 +5,14 @@ use crate::fixture::{apart, multiply, noise, slope};
 use nalgebra::DMatrix;
 
 /// A strained body with free faces, held at one end, on a trial of random increments.
-pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> Solver<D, I> {
+pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> Solver<D> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1));
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
     scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
     scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
-    let mut solver = Solver::new(scene.constrain(wall), settings).unwrap();
+    let mut solver = Solver::new::<I>(scene.constrain(wall), settings).unwrap();
     solver.sort();
     solver
 }
@@ -30,7 +30,7 @@ fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: La
 }
 
 /// The same of a solver.
-pub(super) fn slope_of_the_forces<const D: usize, I: Interpolation<D>>(solver: &Solver<D, I>, remedy: Remedy) {
+pub(super) fn slope_of_the_forces<const D: usize>(solver: &Solver<D>, remedy: Remedy) {
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
     let nodes = solver.functions.len();
@@ -120,12 +120,12 @@ fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D
     let scene = full::<D, _>(CELLS, Places::Uniform, NeoHookean::new(YOUNG, 0.49).unwrap());
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
-    let solver = Solver::<D, I>::new(scene.constrain(wall), settings).unwrap();
+    let solver = Solver::<D>::new::<I>(scene.constrain(wall), settings).unwrap();
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.body, 1.0);
     let (nodes, unknowns) = (solver.functions.len(), &setting.unknowns);
     let mut x = vec![0.0; unknowns.len()];
-    solver.functions.for_each_node(|node, place| {
+    solver.functions.for_each_node(&mut |node, place| {
         if let Some(k) = unknowns.of(node) {
             x[k * D] = place[0];
         }

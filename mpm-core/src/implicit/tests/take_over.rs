@@ -31,7 +31,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
 }
 
 /// A block between rollers, on a floor if there is one, of `rows` rows of particles.
-fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>> {
+fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2> {
     let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
     let whole = filled(axes, CELLS, Places::Uniform, rubber());
     let mut seeded = whole.body.particles.position.clone();
@@ -47,11 +47,11 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2, Means<2>> {
         .load(Gravity(Box::new(|_| [0.0, -1.0])));
     let scene = if lies { scene.contact(contact) } else { scene };
     let settings = Settings::new(1.0).rule(rule).stabilised(Stabilisation::Ghost(0.01));
-    Solver::new(scene, settings).unwrap()
+    Solver::new::<Means<2>>(scene, settings).unwrap()
 }
 
 /// Weight (N/m) of the pile.
-fn weight(pile: &Solver<2, Means<2>>) -> f64 {
+fn weight(pile: &Solver<2>) -> f64 {
     pile.totals().mass
 }
 
@@ -105,7 +105,7 @@ fn accelerations_are_those_of_the_new_scene() {
 
 /// Clay of the length L = 1 m between a symmetry plane and a free face, which hangs on a smooth plate: gravity is
 /// upward.
-fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>> {
+fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2> {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(strength).unwrap()).unwrap();
     let axes = [Axis::bounded(0.0, CELLS + 4, (Side::Wall, Side::Open)); 2];
     let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
@@ -113,7 +113,7 @@ fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2, Means<2>> {
     let gravity = move |time: f64| [0.0, if rises { time } else { 1.0 }];
     let scene = filled(axes, CELLS, Places::Uniform, law).constrain_all(rollers).load(Gravity(Box::new(gravity)));
     let settings = Settings::new(dt).rule(rule).stabilised(Stabilisation::Ghost(0.01));
-    Solver::new(scene, settings).unwrap()
+    Solver::new::<Means<2>>(scene, settings).unwrap()
 }
 
 /// Columns that hang alone, σ_y = γ (L − y), bound the share of γ that can be carried by 2c/(γL) from below, and clay

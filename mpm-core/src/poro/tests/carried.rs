@@ -41,7 +41,7 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
     let speed = 0.23 * H / settings.dt;
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(grid, body).constrain(Carried(speed));
-    let mut solver = Solver::<D, I>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     for step in 1..=12 {
         solver.step().unwrap();
         let top = top + 0.23 * H * f64::from(step);
@@ -73,17 +73,17 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let scene = Scene::new(grid, Body::new(porous(), particles).unwrap());
     let water = Water::new(POROSITY, kozeny_carman());
     let settings = Settings::new(1.0).pressure_space(PressureSpace::Projected { strength: 1.0 });
-    let mut solver = Solver::<1, Means<1>>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<1>::new::<Means<1>>(scene, water, settings).unwrap();
     let k = std::f64::consts::TAU / TOP;
     let places = solver.particles().position.clone();
     solver.pores.pressure = places.iter().map(|x| (k * x[0]).sin()).collect();
     solver.pores.slope = places.iter().map(|x| [k * (k * x[0]).cos()]).collect();
     let setting = solver.setting(1.0, Vec::new()).unwrap();
-    let functions = &solver.water_space.functions;
+    let functions = solver.water_space.functions.as_ref();
     let particles = solver.particles();
     let told = unknowns::extrapolated(&setting.water, functions, particles, &solver.pores);
     let mut seen = 0;
-    crate::implicit::Interpolation::for_each_node(functions, |node, place| {
+    functions.for_each_node(&mut |node, place| {
         if solver.water_space.originals[node] == node {
             seen += 1;
             // From at most 1.25 cells away, half the second derivative times that squared.
@@ -101,9 +101,9 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     solver.pores.slope = vec![[0.0]; places.len()];
     solver.scene.body.particles.volume = volume.clone();
     let setting = solver.setting(1.0, Vec::new()).unwrap();
-    let functions = &solver.water_space.functions;
+    let functions = solver.water_space.functions.as_ref();
     let told = unknowns::extrapolated(&setting.water, functions, solver.particles(), &solver.pores);
-    crate::implicit::Interpolation::for_each_node(functions, |node, place| {
+    functions.for_each_node(&mut |node, place| {
         let hat = |x: &[f64; 1]| {
             let apart = (place[0] - x[0]).rem_euclid(TOP);
             (1.0 - apart.min(TOP - apart) / H).max(0.0)
@@ -129,7 +129,7 @@ fn water_from_within_swells_a_body() {
             water = water.source(move |x, [begin, end]| rate * x[1] * (end - begin));
         }
         let settings = Settings::new(2.0).pressure_space(space);
-        let mut solver = Solver::<2, Means<2>>::new(scene, water, settings).unwrap();
+        let mut solver = Solver::<2>::new::<Means<2>>(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
         let balance = solver.water().copied().unwrap();
         // The mean of the height over the body is half of it.
@@ -146,12 +146,12 @@ fn water_from_within_swells_a_body() {
 fn a_dry_body_carries_no_water() {
     let scene = || standing::<2, _>(porous(), straight);
     let settings = crate::implicit::Settings::new(1.0);
-    let mut dry = crate::implicit::Solver::<2, Hats<2>>::new(scene(), settings).unwrap();
+    let mut dry = crate::implicit::Solver::<2>::new::<Hats<2>>(scene(), settings).unwrap();
     dry.step().unwrap();
     assert!(dry.water().is_none() && dry.pressure_nodes().is_empty());
     assert!(dry.field(Field::PorePressure).is_empty() && dry.field(Field::Porosity).is_empty());
     let water = Water::new(POROSITY, kozeny_carman());
-    let wet = Solver::<2, Hats<2>>::new(scene(), water, Settings::new(1.0)).unwrap();
+    let wet = Solver::<2>::new::<Hats<2>>(scene(), water, Settings::new(1.0)).unwrap();
     let (solid, both) = (wet.solid_space.functions.len() as u64, wet.work().nodes);
     assert_eq!(dry.work().nodes, solid);
     assert_eq!(both, solid + wet.water_space.functions.len() as u64);

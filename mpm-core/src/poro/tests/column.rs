@@ -19,7 +19,7 @@ fn one_element_consolidates_as_its_closed_form() {
     let water = Water::new(POROSITY, Conductivity::Constant(KAPPA)).drained(|x| x[0] > 0.5 * H).face(face);
     let dt = 0.1 * H * H / (KAPPA * modulus);
     let settings = Settings::new(dt).pressure_space(PressureSpace::Equal);
-    let mut solver = Solver::<1, Hats<1>>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<1>::new::<Hats<1>>(scene, water, settings).unwrap();
     let mut lacking = load / modulus;
     for _ in 0..20 {
         solver.step().unwrap();
@@ -201,7 +201,7 @@ fn grains_settle_under_their_weight_in_water() {
         tangent: Tangent::Consistent,
         ..Settings::new(0.01 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
     };
-    let mut solver = Solver::<1, Means<1>>::new(scene, water, settings).unwrap();
+    let mut solver = Solver::<1>::new::<Means<1>>(scene, water, settings).unwrap();
     solver.advance(14).unwrap();
     let p = solver.particles();
     for k in 0..p.len() {
@@ -270,7 +270,7 @@ fn a_start_that_is_deformed_has_deformed_domains() {
     let f = |x: &[f64; 2]| ([x[0], 0.8 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 0.8]]));
     let scene = standing::<2, _>(porous(), f);
     let water = || Water::new(POROSITY, kozeny_carman());
-    let solver = Solver::<2, Means<2>>::new(scene, water(), Settings::new(1.0)).unwrap();
+    let solver = Solver::<2>::new::<Means<2>>(scene, water(), Settings::new(1.0)).unwrap();
     let half_size = solver.pores.half_size.iter();
     for (l, volume) in half_size.zip(&solver.particles().volume) {
         assert!((l[0] - 0.25 * H).abs() < 1e-12 && (l[1] - 0.2 * H).abs() < 1e-12);
@@ -279,7 +279,7 @@ fn a_start_that_is_deformed_has_deformed_domains() {
     // Sheared: extents along the axes are those of the affine image, brought to its volume.
     let sheared = |x: &[f64; 2]| (*x, SMatrix::from([[1.0, 0.3], [0.0, 1.1]]));
     let scene = standing::<2, _>(porous(), sheared);
-    let solver = Solver::<2, Means<2>>::new(scene, water(), Settings::new(1.0)).unwrap();
+    let solver = Solver::<2>::new::<Means<2>>(scene, water(), Settings::new(1.0)).unwrap();
     // Those on the floor end there.
     let half_size = solver.pores.half_size.iter();
     for (l, x) in half_size.zip(&solver.particles().position) {
@@ -288,7 +288,7 @@ fn a_start_that_is_deformed_has_deformed_domains() {
     }
     // Too long for means over a cell at most, and by so much; hats know no domain.
     let stretched = |x: &[f64; 2]| ([x[0], 0.5 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 2.2]]));
-    let begun = Solver::<2, Means<2>>::new(standing::<2, _>(porous(), stretched), water(), Settings::new(1.0));
+    let begun = Solver::<2>::new::<Means<2>>(standing::<2, _>(porous(), stretched), water(), Settings::new(1.0));
     match begun.err() {
         Some(Error::Breakdown { step: 0, fault: Fault::WideDomain(cells), .. }) => {
             assert!((cells - 0.55).abs() < 1e-12)
@@ -296,5 +296,5 @@ fn a_start_that_is_deformed_has_deformed_domains() {
         other => panic!("{other:?}"),
     }
     let scene = standing::<2, _>(porous(), stretched);
-    assert!(Solver::<2, Hats<2>>::new(scene, water(), Settings::new(1.0)).is_ok());
+    assert!(Solver::<2>::new::<Hats<2>>(scene, water(), Settings::new(1.0)).is_ok());
 }

@@ -9,7 +9,7 @@ fn ghosts(dt: f64) -> [Settings; 2] {
 }
 
 /// A column whose height is this share of that of the cells, under 0.3 of its modulus and drained at its top.
-fn unfitted(height: f64, settings: Settings) -> Solver<1, Means<1>> {
+fn unfitted(height: f64, settings: Settings) -> Solver<1> {
     let fitted = standing::<1, _>(porous(), straight);
     let places = &fitted.body.particles.position;
     let places = places.iter().map(|x| [x[0] * height]).collect();
@@ -22,7 +22,7 @@ fn unfitted(height: f64, settings: Settings) -> Solver<1, Means<1>> {
     let body = Body::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain(floor);
     let water = Water::new(POROSITY, kozeny_carman()).face(load).face(drain);
-    Solver::new(scene, water, settings).unwrap()
+    Solver::new::<Means<1>>(scene, water, settings).unwrap()
 }
 
 /// Settlements over the height after 1, 10 and 40 steps.

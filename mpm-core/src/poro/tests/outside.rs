@@ -7,7 +7,7 @@ fn water<const D: usize>() -> Water<D> {
 }
 
 fn refused<const D: usize>(scene: Scene<D>, water: Water<D>, what: &str) {
-    match Solver::<D, Hats<D>>::new(scene, water, Settings::new(1.0)).err() {
+    match Solver::<D>::new::<Hats<D>>(scene, water, Settings::new(1.0)).err() {
         Some(error @ Error::Input { .. }) => {
             assert!(error.to_string().contains(what), "{error}");
         }
@@ -85,15 +85,15 @@ fn the_sum_of_a_load_is_checked_in_every_step() {
 }
 
 /// A column without its right wall, drained there.
-fn slab<I: OfHats<2>>(water: Water<2>, settings: Settings) -> Solver<2, I> {
+fn slab<I: OfHats<2>>(water: Water<2>, settings: Settings) -> Solver<2> {
     let mut scene = standing::<2, _>(porous(), straight);
     scene.constraints.remove(1);
     let water = water.drained(|x| x[0] > WIDE as f64 * H - 1e-9);
-    Solver::new(scene, water, settings).unwrap()
+    Solver::new::<I>(scene, water, settings).unwrap()
 }
 
 /// How much of the most the displacements of the uppermost particles differ by, after a step.
-fn unevenness<I: OfHats<2>>(solver: &mut Solver<2, I>) -> f64 {
+fn unevenness(solver: &mut Solver<2>) -> f64 {
     solver.step().unwrap();
     let p = solver.particles();
     let upper = (0..p.len()).filter(|k| topmost(&p.reference[*k]));

@@ -5,7 +5,7 @@ use crate::fixture::{apart, multiply, noise, slope};
 use crate::implicit::algebra::norm;
 
 /// A strained column with all that a scene can have, shorter along every axis: no domain leaves the cells it was in.
-fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I> {
+fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| {
         let strain = 0.04 * noise(3 * i + j + 1);
         if i == j { 1.0 - strain.abs() } else { strain }
@@ -19,7 +19,7 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D, I> {
         .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration })
         .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H))
         .plate(Plate::new(D - 1, uppermost, |_| -1e3));
-    let mut solver = Solver::new(scene, water, settings).unwrap();
+    let mut solver = Solver::new::<I>(scene, water, settings).unwrap();
     solver.sort();
     solver
 }
