@@ -129,7 +129,7 @@ fn law<M: Law + Copy + 'static>(c: &mut Criterion, name: &str, law: &M, delta_f:
     group.bench_function(name, |b| {
         b.iter(|| {
             for state in &mut states {
-                let (stress, next) = law.update(&embed(black_box(delta_f)), 1e-3, state);
+                let (stress, next) = law.response(&embed(black_box(delta_f)), 1e-3, state);
                 black_box(stress);
                 *state = next;
             }

@@ -1,13 +1,13 @@
 //! A body: one material, one set of particles, and the state of each.
 
-use crate::eights::{entries, fetch, fetch_rows, matrix_entries, numbers};
+use crate::eights::{block, entries, fetch, fetch_rows, matrix_entries, numbers};
 use crate::error::{Error, Fault};
 use crate::material::{AnyLaw, SharedLaw};
 use crate::memory::{MemoryError, Saved};
 use crate::monitor::{Accumulated, Totals};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::{CHUNK, Front, Rows, for_each_piece};
-use crate::particles::Particles;
+use crate::parallel::{Front, Rows};
+use crate::particles::{Particles, permute};
 use crate::space;
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
@@ -63,23 +63,13 @@ impl<const D: usize> Body<D> {
     }
 
     /// Stress and state of the particles after the deformation ΔF̄ of their `delta_f` over `dt` (s), Eq. (22), and
-    /// their volume, Eq. (15): eight of them side by side, and those that are left over one by one.
+    /// their volume, Eq. (15).
     pub fn update_stress(&mut self, dt: f64) {
         let (law, p, n) = (&self.law, &mut self.particles, self.law.numbers());
-        let (wholes, rest) = p.delta_f.as_chunks();
         for (k, rows) in self.states.chunks_mut(EIGHT * n).enumerate() {
-            match wholes.get(k) {
-                Some(delta_f) => {
-                    let delta_f = matrix_entries(delta_f);
-                    let stresses = &mut p.stress[k * EIGHT..];
-                    law.update_eight(delta_f.as_flattened(), dt, numbers(&p.jacobian, k), rows, stresses);
-                }
-                None => {
-                    for (l, (f, row)) in rest.iter().zip(rows.chunks_exact_mut(n)).enumerate() {
-                        p.stress[k * EIGHT + l] = law.update_one(&space::embed(f), dt, row);
-                    }
-                }
-            }
+            let delta_f = matrix_entries(block(&p.delta_f, k, &mut None));
+            let stresses = &mut p.stress[k * EIGHT..];
+            law.update_eight(delta_f.as_flattened(), dt, numbers(&p.jacobian, k), rows, stresses);
         }
         let columns = p.jacobian.iter().zip(&p.reference_volume);
         for (volume, (j, reference)) in p.volume.iter_mut().zip(columns) {
@@ -92,7 +82,7 @@ impl<const D: usize> Body<D> {
         let p = &mut self.particles;
         Chunk {
             begin: 0,
-            states: Rows { numbers: &mut self.states, width: self.law.numbers() },
+            states: Rows { entries: &mut self.states, width: self.law.numbers() },
             law: self.law.as_ref(),
             position: &mut p.position,
             velocity: &mut p.velocity,
@@ -121,7 +111,7 @@ impl<const D: usize> Body<D> {
     /// Puts the particles in the order `order`: entry `k` becomes the former entry `order[k]`.
     pub fn permute(&mut self, order: &[u32]) {
         self.particles.permute(order);
-        permute_rows(&mut self.states, order, self.law.numbers());
+        permute(&mut self.states, order, self.law.numbers());
     }
 
     /// Particles and states as bytes.
@@ -157,7 +147,7 @@ impl<const D: usize> Body<D> {
             particles.check_whole()?;
             let order = particles.first(self.particles.len());
             particles.permute(&order);
-            permute_rows(&mut states, &order, self.law.numbers());
+            permute(&mut states, &order, self.law.numbers());
         }
         particles.go_on_as(&self.particles);
         self.replace((particles, states), check)
@@ -183,7 +173,7 @@ pub struct Chunk<'a, const D: usize> {
     /// The place of the first particle in the columns.
     pub begin: usize,
     /// The law's states.
-    pub states: Rows<'a>,
+    pub states: Rows<'a, f64>,
     /// Position x (m).
     pub position: &'a mut [[f64; D]],
     /// Velocity v (m/s).
@@ -233,7 +223,7 @@ impl<const D: usize> Chunk<'_, D> {
     /// Prefetches what the law and the position of the `k`-th eight need.
     #[inline(always)]
     pub fn fetch_second_half(&self, k: usize) {
-        fetch_rows(self.states.numbers, k, self.states.width);
+        fetch_rows(self.states.entries, k, self.states.width);
         fetch(self.position, k);
         fetch(self.volume, k);
         fetch(self.jacobian, k);
@@ -275,18 +265,6 @@ impl<const D: usize> Front for Chunk<'_, D> {
             external_force: self.external_force.front(pieces, size),
         }
     }
-}
-
-/// Puts rows in the order `order`, as [`permute`] does entries.
-fn permute_rows(numbers: &mut Vec<f64>, order: &[u32], width: usize) {
-    let before = numbers.clone();
-    numbers.truncate(width * order.len());
-    let rows = Rows { numbers, width };
-    for_each_piece((rows, order), order.len(), CHUNK, &|_, (rows, order)| {
-        for (row, p) in rows.numbers.chunks_exact_mut(width).zip(order) {
-            row.copy_from_slice(&before[*p as usize * width..][..width]);
-        }
-    });
 }
 
 /// Checks that a Jacobian is positive and finite.

@@ -61,6 +61,12 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         if D == 1 { 1 } else { self.strides[D - 2] }
     }
 
+    /// The nodes beside a node along the axes.
+    pub(crate) fn beside(&self, node: usize) -> impl Iterator<Item = usize> + use<D, S, B> {
+        let (strides, len) = (self.strides, self.len());
+        strides.into_iter().flat_map(move |s| [node.checked_sub(s), Some(node + s)]).flatten().filter(move |k| *k < len)
+    }
+
     /// Whether nodes have periodic images.
     pub fn has_images(&self) -> bool {
         !self.images.is_empty()

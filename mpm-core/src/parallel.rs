@@ -62,17 +62,17 @@ impl<A: Front, B: Front> Front for (A, B) {
     }
 }
 
-/// Rows of numbers, one an entry.
-pub struct Rows<'a> {
+/// A column that has a row of several entries where others have one.
+pub struct Rows<'a, T> {
     /// The rows, one after the other.
-    pub numbers: &'a mut [f64],
-    /// How many numbers a row has.
+    pub entries: &'a mut [T],
+    /// How many entries a row has.
     pub width: usize,
 }
 
-impl Front for Rows<'_> {
+impl<T: Send> Front for Rows<'_, T> {
     fn front(&mut self, pieces: usize, size: usize) -> Self {
-        Self { numbers: self.numbers.front(pieces, size * self.width), width: self.width }
+        Self { entries: self.entries.front(pieces, size * self.width), width: self.width }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::error::{Error, positive, require};
 use crate::frame::Frame;
 use crate::memory::{MemoryError, row, rows};
-use crate::parallel::{CHUNK, for_each_piece};
+use crate::parallel::{CHUNK, Rows, for_each_piece};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
@@ -238,33 +238,34 @@ impl<const D: usize> Particles<D> {
     /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves
     /// the others out.
     pub fn permute(&mut self, order: &[u32]) {
-        permute(&mut self.id, order);
-        permute(&mut self.reference, order);
-        permute(&mut self.position, order);
-        permute(&mut self.velocity, order);
-        permute(&mut self.acceleration, order);
-        permute(&mut self.affine, order);
-        permute(&mut self.mass, order);
-        permute(&mut self.reference_volume, order);
-        permute(&mut self.volume, order);
-        permute(&mut self.jacobian, order);
-        permute(&mut self.j_bar, order);
-        permute(&mut self.stress, order);
-        permute(&mut self.external_force, order);
-        permute(&mut self.delta_f, order);
-        permute(&mut self.increment, order);
+        permute(&mut self.id, order, 1);
+        permute(&mut self.reference, order, 1);
+        permute(&mut self.position, order, 1);
+        permute(&mut self.velocity, order, 1);
+        permute(&mut self.acceleration, order, 1);
+        permute(&mut self.affine, order, 1);
+        permute(&mut self.mass, order, 1);
+        permute(&mut self.reference_volume, order, 1);
+        permute(&mut self.volume, order, 1);
+        permute(&mut self.jacobian, order, 1);
+        permute(&mut self.j_bar, order, 1);
+        permute(&mut self.stress, order, 1);
+        permute(&mut self.external_force, order, 1);
+        permute(&mut self.delta_f, order, 1);
+        permute(&mut self.increment, order, 1);
     }
 }
 
-/// Puts a column in the order `order`, in which entries may be left out; an empty column stays empty.
-pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32]) {
+/// Puts the rows of a column, `width` entries each, in the order `order`, in which some may be left out; an empty column
+/// stays empty.
+pub(crate) fn permute<T: Copy + Send + Sync>(column: &mut Vec<T>, order: &[u32], width: usize) {
     if !column.is_empty() {
         let before = column.clone();
-        column.truncate(order.len());
-        let columns = (&mut column[..], order);
-        for_each_piece(columns, order.len(), CHUNK, &|_, (column, order)| {
-            for (entry, p) in column.iter_mut().zip(order) {
-                *entry = before[*p as usize];
+        column.truncate(width * order.len());
+        let rows = (Rows { entries: column, width }, order);
+        for_each_piece(rows, order.len(), CHUNK, &|_, (rows, order)| {
+            for (row, p) in rows.entries.chunks_exact_mut(width).zip(order) {
+                row.copy_from_slice(&before[*p as usize * width..][..width]);
             }
         });
     }

@@ -6,6 +6,7 @@ use crate::memory::{Memory, Saved};
 use crate::monitor::{Convergence, Reaction, Residual, Totals, WaterBalance};
 use crate::particles::Particles;
 pub use crate::scene::Part;
+use crate::scene::Scene;
 use crate::tensor::SymmetricTensor;
 use crate::work::{Spent, Work};
 
@@ -46,10 +47,16 @@ pub trait Simulation<const D: usize>: Memory + Send {
     fn time(&self) -> f64 {
         self.ledger().time
     }
+    /// The scene as it is now.
+    fn scene(&self) -> &Scene<D>;
     /// The particles, sorted by place.
-    fn particles(&self) -> &Particles<D>;
+    fn particles(&self) -> &Particles<D> {
+        &self.scene().body.particles
+    }
     /// Mass, momentum, energies, J.
-    fn totals(&self) -> Totals;
+    fn totals(&self) -> Totals {
+        self.scene().body.totals(self.ledger().accumulated)
+    }
     /// Out-of-balance and held forces of the last step.
     fn residual(&self) -> Residual {
         self.ledger().residual
@@ -72,7 +79,9 @@ pub trait Simulation<const D: usize>: Memory + Send {
         self.ledger().spent
     }
     /// Reaction of a part of the scene; NaN for a part that does not exist.
-    fn on(&self, part: Part) -> Reaction;
+    fn on(&self, part: Part) -> Reaction {
+        self.ledger().on(part, &self.scene().contacts)
+    }
     /// Water balance, of a body with water.
     fn water(&self) -> Option<&WaterBalance> {
         None

@@ -10,6 +10,7 @@ use crate::problem::Problem;
 use crate::record::Record;
 use crate::results::{Column, ResultTable, headline};
 use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::size::Size;
 use crate::sketch::Sketch;
 use crate::spec::{Level, RunSpec};
 use crate::verdict::Verdict;
@@ -127,6 +128,8 @@ pub struct Case {
     /// The runs at its own parameters and what stands in for them, one for each scheme and level: those of
     /// its convergence.
     pub own_runs: fn(&[Record]) -> Vec<&Record>,
+    /// Size of its runs, where it is known before one begins.
+    pub size: Option<Size>,
     /// Begins a run.
     pub begin: Begin,
     /// Draws what only this case has.
@@ -183,6 +186,7 @@ impl Case {
             cost: Box::new(|_| 1.0),
             ladder: &[],
             own_runs: crate::record::of_defaults,
+            size: None,
             begin,
             pictures: |_| Ok(()),
             tables: Vec::new(),

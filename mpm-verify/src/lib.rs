@@ -35,6 +35,7 @@ pub mod run;
 pub mod sampled;
 pub mod score;
 pub mod setup;
+pub mod size;
 pub mod sketch;
 pub mod spec;
 pub mod statistics;

@@ -37,7 +37,6 @@ fn a_quasi_static_run_says_what_it_does_not_solve() {
     beam(&["stabilisation=glue"], &["glue", "none, soft, ghost"]);
     on("q8", "stabilisation=ghost", &["ghost penalty", "none or soft"]);
     on("gimp", "stabilisation=soft", &["soft stiffness", "none or ghost"]);
-    on("gimp", "law=jaumann", &["basis", "allowed"]);
     refused(
         &["run", "cook", "--solver", "quasi-static", "--remedy", "fbar-rate"],
         &["quasi-static-gimp-fbar-rate", "quasi-static-gimp-fbar-consistent"],

@@ -22,13 +22,10 @@ use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
 use crate::ledger::Ledger;
 use crate::memory::Saved;
-use crate::monitor::{Reaction, Totals};
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
-use crate::particles::Particles;
 use crate::projection::{Onto, Space, space};
 use crate::reach::Reach;
-use crate::scene::Part;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::stage::Prescribed;
@@ -142,16 +139,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
         &self.ledger
     }
 
-    fn particles(&self) -> &Particles<D> {
-        &self.scene.body.particles
-    }
-
-    fn totals(&self) -> Totals {
-        self.scene.body.totals(self.ledger.accumulated)
-    }
-
-    fn on(&self, part: Part) -> Reaction {
-        self.ledger.on(part, &self.scene.contacts)
+    fn scene(&self) -> &Scene<D> {
+        &self.scene
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {

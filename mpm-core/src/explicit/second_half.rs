@@ -99,8 +99,8 @@ impl<const D: usize> SecondHalf<D> {
     ) {
         let j = numbers(p.jacobian, k);
         let size = EIGHT * p.states.width;
-        let here = k * size..p.states.numbers.len().min((k + 1) * size);
-        let rows = &mut p.states.numbers[here];
+        let here = k * size..p.states.entries.len().min((k + 1) * size);
+        let rows = &mut p.states.entries[here];
         let modulus = p.law.update_eight(delta_f.as_flattened(), self.dt, j, rows, &mut p.stress[k * EIGHT..]);
         store_numbers(p.volume, k, j * numbers(p.reference_volume, k));
         sums.wave_modulus = sums.wave_modulus.fast_max(modulus);

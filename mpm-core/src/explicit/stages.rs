@@ -134,7 +134,27 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         for (g, momentum) in gravity.as_array()[..D].iter().zip(momentum.as_array()) {
             self.ledger.accumulated.load_work += dt * g * momentum;
         }
+        if S == 2 {
+            self.carry_along();
+        }
         self.lattice.unfold(&mut self.nodes);
+    }
+
+    /// Gives nodes without mass the mean velocity of those beside them: a particle that stands on a node sees the next
+    /// one by its gradient alone, where functions are not smooth.
+    fn carry_along(&mut self) {
+        let nodes = &mut self.nodes;
+        for node in self.reach.within(0, nodes.len()).flatten() {
+            if nodes[node].mass() <= 0.0 {
+                let (mut sum, mut count) = (Node::ZERO, 0.0);
+                for k in self.lattice.beside(node).filter(|k| nodes[*k].mass() > 0.0) {
+                    (sum, count) = (sum + nodes[k].motion, count + 1.0);
+                }
+                for a in 0..D {
+                    nodes[node].motion.as_mut_array()[a] = sum.as_array()[a] / f64::max(count, 1.0);
+                }
+            }
+        }
     }
 
     /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the

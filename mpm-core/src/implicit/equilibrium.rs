@@ -63,7 +63,7 @@ impl<const D: usize> Step<'_, D> {
             Some(_) => particles.j_bar[p],
         };
         Particle {
-            law: self.body.law.as_ref(),
+            law: &self.body.law,
             state: self.body.state(p),
             dt: self.dt,
             volume: particles.reference_volume[p] * j,

@@ -48,10 +48,8 @@ use crate::body::Body;
 use crate::error::{Cause, Error};
 use crate::ledger::Ledger;
 use crate::memory::Saved;
-use crate::monitor::{Reaction, Totals};
 use crate::parallel::{LIGHT, map};
-use crate::particles::Particles;
-use crate::scene::{Part, Scene};
+use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::space::embed;
 use crate::tensor::SymmetricTensor;
@@ -124,12 +122,8 @@ impl<const D: usize> Simulation<D> for Solver<D> {
         &self.ledger
     }
 
-    fn particles(&self) -> &Particles<D> {
-        &self.scene.body.particles
-    }
-
-    fn totals(&self) -> Totals {
-        self.scene.body.totals(self.ledger.accumulated)
+    fn scene(&self) -> &Scene<D> {
+        &self.scene
     }
 
     fn condition(&self) -> f64 {
@@ -143,10 +137,6 @@ impl<const D: usize> Simulation<D> for Solver<D> {
                 linear::condition(contact::is_symmetric(&self.scene), &setting.pattern, &values)
             }
         }
-    }
-
-    fn on(&self, part: Part) -> Reaction {
-        self.ledger.on(part, &self.scene.contacts)
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {

@@ -4,7 +4,7 @@
 //! node's force is Σ P ∇w. With F̄ a particle has a potential V⁰ W(F̄) of ΔF and of its averaged change of volume a = A
 //! ΔJ, F̄ = (a/ΔJ)^(1/D) ΔF F̄ⁿ. Its derivatives are P = ∂/∂ΔF and q = ∂/∂a, Eqs. (8) and (9) of `docs/implicit.md`.
 
-use crate::material::{AnyLaw, Asked};
+use crate::material::{Answers, AnyLaw, SharedLaw};
 use crate::number::{Dual, Real};
 use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
@@ -15,7 +15,7 @@ pub(crate) const MOST: usize = 9;
 /// A particle at the start of a step.
 pub(super) struct Particle<'a> {
     /// The law.
-    pub(super) law: &'a dyn AnyLaw,
+    pub(super) law: &'a SharedLaw,
     /// State of the law.
     pub(super) state: &'a [f64],
     /// Duration of the step (s).
@@ -80,7 +80,10 @@ fn stretch<T: Real, const D: usize>(x: T) -> T {
 impl Particle<'_> {
     /// The answer to `f`, completed to three dimensions, and with F̄ to the averaged change of volume.
     #[inline]
-    pub(super) fn respond<T: Asked, const D: usize>(&self, f: &Matrix3<T>, averaged: Option<T>) -> Response<T> {
+    pub(super) fn respond<T: Real, const D: usize>(&self, f: &Matrix3<T>, averaged: Option<T>) -> Response<T>
+    where
+        dyn AnyLaw: Answers<T>,
+    {
         let mut cofactor = [T::default(); MOST];
         for i in 0..D {
             for j in 0..D {
@@ -91,13 +94,13 @@ impl Particle<'_> {
         let mut scale = T::splat(self.volume);
         let mut pressure = T::default();
         let cauchy = match averaged {
-            None => T::stress(self.law, f, self.dt, self.state),
+            None => self.law.stress(f, self.dt, self.state),
             Some(averaged) => {
                 let ratio = averaged / determinant(f);
                 let stretch = stretch::<T, D>(ratio);
                 let in_plane = |i: usize, j: usize| i < D && j < D;
                 let scaled = Matrix3::from_fn(|i, j| if in_plane(i, j) { stretch * f[(i, j)] } else { f[(i, j)] });
-                let cauchy = T::stress(self.law, &scaled, self.dt, self.state);
+                let cauchy = self.law.stress(&scaled, self.dt, self.state);
                 for a in 0..D {
                     pressure += cauchy.get(a, a);
                 }
@@ -137,7 +140,7 @@ impl Particle<'_> {
         share: f64,
     ) -> Tangent<D>
     where
-        Dual<N>: Asked,
+        dyn AnyLaw: Answers<Dual<N>>,
     {
         let averaged = averaged.map(|a| Dual::variable(a, D * D));
         let answer = self.respond::<_, D>(&variables::<D, N>(f), averaged);

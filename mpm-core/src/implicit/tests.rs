@@ -10,6 +10,7 @@ use crate::material::{Law, shared};
 use crate::memory::Memory;
 use crate::space::embed;
 use crate::stage::{BodyForce, End, Wall, WallKind};
+use crate::{Part, Particles};
 use nalgebra::SMatrix;
 
 const YOUNG: f64 = 1e5;
@@ -109,7 +110,7 @@ fn reproduces_affine_fields<const D: usize, I: Interpolation<D>, M: Law + Clone 
     // Shrinks, so that the body stays on the grid.
     let gradient = SMatrix::from_fn(|i, j| 0.01 * (i as f64 - 0.7 * j as f64) - if i == j { 0.08 } else { 0.0 });
     let f = embed(&(SMatrix::<f64, D, D>::identity() + gradient));
-    let exact = law.update(&f, 1.0, &law.initial_state()).0.to_matrix();
+    let exact = law.response(&f, 1.0, &law.initial_state()).0.to_matrix();
     for stress in patch::<D, I, M>(law, gradient, f64::INFINITY, Stabilisation::Ghost(0.01)) {
         let error = (stress.to_matrix() - exact).norm();
         assert!(error < 1e-12 * YOUNG, "{error}");

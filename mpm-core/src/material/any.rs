@@ -11,10 +11,22 @@ use nalgebra::Matrix3;
 use std::array::from_fn;
 use std::sync::Arc;
 
-/// What solvers ask of a law, one call for eight particles. Every [`Law`] is one.
+/// A law that answers with numbers `T`, of one particle.
+pub trait Answers<T> {
+    /// Cauchy stress (Pa) after the deformation `delta_f` over `dt` (s) from the state in `row`.
+    fn stress(&self, delta_f: &Matrix3<T>, dt: f64, row: &[f64]) -> SymmetricTensor<T>;
+}
+
+impl<M: Law, T: Real> Answers<T> for M {
+    fn stress(&self, delta_f: &Matrix3<T>, dt: f64, row: &[f64]) -> SymmetricTensor<T> {
+        self.response(delta_f, dt, &read::<M, T>(row)).0
+    }
+}
+
+/// A law as solvers ask it: one call for eight particles, and derivatives in a plane and in space. Every [`Law`] is one.
 ///
 /// The state of a particle is a row of [`AnyLaw::numbers`] numbers; rows of several particles follow each other.
-pub trait AnyLaw: Send + Sync {
+pub trait AnyLaw: Answers<f64> + Answers<Dual<5>> + Answers<Dual<10>> + Send + Sync {
     /// How many numbers the state of a particle has.
     fn numbers(&self) -> usize;
 
@@ -41,18 +53,6 @@ pub trait AnyLaw: Send + Sync {
         rows: &mut [f64],
         stresses: &mut [SymmetricTensor],
     ) -> Eight;
-
-    /// Cauchy stress (Pa) of one particle after `delta_f` over `dt` (s), with its new state in `row`.
-    fn update_one(&self, delta_f: &Matrix3<f64>, dt: f64, row: &mut [f64]) -> SymmetricTensor;
-
-    /// The stress alone.
-    fn stress(&self, delta_f: &Matrix3<f64>, dt: f64, row: &[f64]) -> SymmetricTensor;
-
-    /// The stress with four derivatives and one more, for deformations in a plane.
-    fn derive_five(&self, delta_f: &Matrix3<Dual<5>>, dt: f64, row: &[f64]) -> SymmetricTensor<Dual<5>>;
-
-    /// The stress with nine derivatives and one more, for those in space.
-    fn derive_ten(&self, delta_f: &Matrix3<Dual<10>>, dt: f64, row: &[f64]) -> SymmetricTensor<Dual<10>>;
 
     /// [`Law::wave_modulus`] of one particle.
     fn wave_modulus(&self, j: f64, stress: &SymmetricTensor, row: &[f64]) -> f64;
@@ -89,25 +89,6 @@ macro_rules! shared {
 
 shared!(CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean, NewtonianFluid);
 shared!(Viscous<NeoHookean>);
-
-/// Numbers of which a law that is chosen at run time makes stresses.
-pub(crate) trait Asked: Real {
-    /// The stress (Pa) of `law` after `delta_f` over `dt` (s).
-    fn stress(law: &dyn AnyLaw, delta_f: &Matrix3<Self>, dt: f64, row: &[f64]) -> SymmetricTensor<Self>;
-}
-
-/// The method of the law for each kind of number.
-macro_rules! asked {
-    ($($number:ty: $method:ident),*) => {$(
-        impl Asked for $number {
-            fn stress(law: &dyn AnyLaw, delta_f: &Matrix3<Self>, dt: f64, row: &[f64]) -> SymmetricTensor<Self> {
-                law.$method(delta_f, dt, row)
-            }
-        }
-    )*};
-}
-
-asked!(f64: stress, Dual<5>: derive_five, Dual<10>: derive_ten);
 
 /// The state in a row, as a constant.
 #[inline(always)]
@@ -188,24 +169,6 @@ impl<M: Law + 'static> AnyLaw for M {
         }
     }
 
-    fn update_one(&self, delta_f: &Matrix3<f64>, dt: f64, row: &mut [f64]) -> SymmetricTensor {
-        let (stress, state) = self.update(delta_f, dt, &read::<M, f64>(row));
-        M::State::write::<f64>(&state, |i, number| row[i] = *number);
-        stress
-    }
-
-    fn stress(&self, delta_f: &Matrix3<f64>, dt: f64, row: &[f64]) -> SymmetricTensor {
-        self.update(delta_f, dt, &read::<M, f64>(row)).0
-    }
-
-    fn derive_five(&self, delta_f: &Matrix3<Dual<5>>, dt: f64, row: &[f64]) -> SymmetricTensor<Dual<5>> {
-        self.response(delta_f, dt, &read::<M, Dual<5>>(row)).0
-    }
-
-    fn derive_ten(&self, delta_f: &Matrix3<Dual<10>>, dt: f64, row: &[f64]) -> SymmetricTensor<Dual<10>> {
-        self.response(delta_f, dt, &read::<M, Dual<10>>(row)).0
-    }
-
     fn wave_modulus(&self, j: f64, stress: &SymmetricTensor, row: &[f64]) -> f64 {
         Law::wave_modulus(self, j, stress, &read::<M, f64>(row))
     }
@@ -220,5 +183,30 @@ impl<M: Law + 'static> AnyLaw for M {
 
     fn energy(&self, row: &[f64]) -> f64 {
         Law::energy(self, &read::<M, f64>(row))
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+
+    /// Stress and state of eight particles that deform by `delta_f` over `dt` (s): side by side, and each alone.
+    pub(crate) fn side_by_side<M: Law + 'static>(
+        law: &M,
+        delta_f: &[Matrix3<f64>; EIGHT],
+        dt: f64,
+        states: &mut [M::State; EIGHT],
+    ) -> [[(SymmetricTensor, M::State); 2]; EIGHT] {
+        let before = *states;
+        let mut rows = Vec::new();
+        before.iter().for_each(|state| M::State::write::<f64>(state, |_, number| rows.push(*number)));
+        let entries: [_; 9] = std::array::from_fn(|n| Eight::pack(|k| delta_f[k][(n / 3, n % 3)]));
+        let mut stresses = [SymmetricTensor::default(); EIGHT];
+        AnyLaw::update_eight(law, &entries, dt, Eight::ONE, &mut rows, &mut stresses);
+        let rows = rows.chunks_exact(M::State::NUMBERS);
+        for (state, row) in states.iter_mut().zip(rows) {
+            *state = M::State::read(|i| row[i]);
+        }
+        std::array::from_fn(|k| [(stresses[k], states[k]), law.response(&delta_f[k], dt, &before[k])])
     }
 }

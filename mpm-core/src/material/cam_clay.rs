@@ -18,7 +18,7 @@ mod state;
 
 pub use state::CamClayState;
 
-use super::{ImprovedHencky, Law, StateOf};
+use super::{ImprovedHencky, Law, Response, StateOf};
 use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -136,12 +136,7 @@ impl Law for CamClay {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        state: &StateOf<Self, T>,
-    ) -> (SymmetricTensor<T>, StateOf<Self, T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, state: &StateOf<Self, T>) -> Response<Self, T> {
         let (number, half) = (T::splat, T::splat(0.5));
         let shear_modulus = number(self.elasticity.shear_modulus);
         let elastic = state.elastic.push_forward(delta_f);

@@ -1,6 +1,6 @@
 //! Hencky elasticity: W = μ ‖dev h‖² + ½ K (tr h)² of the strain h = ½ ln b, hence τ = 2μ dev h + K tr h I.
 
-use super::{Law, NeoHookean};
+use super::{Law, NeoHookean, Response};
 use crate::error::Error;
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -36,12 +36,7 @@ impl Law for Hencky {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        state: &SymmetricTensor<T>,
-    ) -> (SymmetricTensor<T>, SymmetricTensor<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, state: &SymmetricTensor<T>) -> Response<Self, T> {
         let b = state.push_forward(delta_f);
         let inverse_jacobian = T::splat(1.0) / b.determinant().sqrt();
         let logarithm = b.ln();

@@ -8,7 +8,7 @@
 //! of flow does not turn, of first order in the step where it does.
 
 use super::strength::PER_FLOW;
-use super::{ElastoplasticState, Hencky, Law, Strength};
+use super::{ElastoplasticState, Hencky, Law, Response, Strength};
 use crate::error::Error;
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -46,12 +46,7 @@ impl Law for HenckyJ2 {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        state: &ElastoplasticState<T>,
-    ) -> (SymmetricTensor<T>, ElastoplasticState<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, state: &ElastoplasticState<T>) -> Response<Self, T> {
         let mut elastic = state.elastic.push_forward(delta_f);
         let plastic_strain = state.plastic_strain;
         // Flow keeps the volume: the elastic Jacobian is the whole one.

@@ -8,7 +8,7 @@
 //! and spin of the step, spin times the stress of its start. Their Eq. (9) as printed adds −(σ Δω + Δω σ), which of an
 //! antisymmetric Δω is antisymmetric and hence no stress; Δω σ − σ Δω is meant, as their Eq. (16) shows.
 
-use super::{Law, NeoHookean};
+use super::{Law, NeoHookean, Response};
 use crate::error::Error;
 use crate::number::Real;
 use crate::tensor::{SymmetricTensor, determinant};
@@ -103,12 +103,7 @@ impl Law for Hypoelastic {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        stress: &SymmetricTensor<T>,
-    ) -> (SymmetricTensor<T>, SymmetricTensor<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, stress: &SymmetricTensor<T>) -> Response<Self, T> {
         let gradient = Matrix3::from_fn(|i, j| {
             let one = if i == j { 1.0 } else { 0.0 };
             delta_f[(i, j)] - T::splat(one)
@@ -173,7 +168,7 @@ mod tests {
         let axis = nalgebra::Vector3::new(0.3, -0.5, 0.8).normalize();
         let turn = |angle: f64| Rotation3::new(axis * angle).into_inner();
         let error = |update, angle: f64| {
-            let turned = law(update).update(&turn(angle), 1.0, &stress).1;
+            let turned = law(update).response(&turn(angle), 1.0, &stress).1;
             let exact = stress.push_forward(&turn(angle));
             (turned.to_matrix() - exact.to_matrix()).norm() / stress.norm()
         };
@@ -192,7 +187,7 @@ mod tests {
             let mut shear = Matrix3::identity();
             shear[(0, 1)] = step;
             for _ in 0..steps {
-                state = material.update(&shear, 1.0, &state).1;
+                state = material.response(&shear, 1.0, &state).1;
             }
             let (xy, xx) = (material.mu * 2.0_f64.sin(), material.mu * (1.0 - 2.0_f64.cos()));
             (state.xy - xy).hypot(state.xx - xx) / material.mu

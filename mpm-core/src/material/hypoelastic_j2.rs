@@ -6,7 +6,7 @@
 //! differ by the elastic strain.
 
 use super::strength::PER_FLOW;
-use super::{ElastoplasticState, Hypoelastic, JaumannUpdate, Law, Strength};
+use super::{ElastoplasticState, Hypoelastic, JaumannUpdate, Law, Response, Strength};
 use crate::error::Error;
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -52,12 +52,7 @@ impl Law for HypoelasticJ2 {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        dt: f64,
-        state: &ElastoplasticState<T>,
-    ) -> (SymmetricTensor<T>, ElastoplasticState<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, dt: f64, state: &ElastoplasticState<T>) -> Response<Self, T> {
         let (trial, _) = self.elastic.response(delta_f, dt, &state.elastic);
         let deviator = trial.deviator();
         let norm = deviator.norm();
@@ -107,7 +102,7 @@ mod tests {
     fn drive<M: Law>(law: &M, increment: &Matrix3<f64>, steps: usize) -> (SymmetricTensor, M::State) {
         let mut last = (SymmetricTensor::default(), law.initial_state());
         for _ in 0..steps {
-            last = law.update(increment, 1.0, &last.1);
+            last = law.response(increment, 1.0, &last.1);
         }
         last
     }
@@ -140,7 +135,7 @@ mod tests {
         let shear = Matrix3::new(1.0, 0.02, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
         let (_, before) = drive(&law, &shear, 3);
         let turn = Rotation3::new(Vector3::new(0.3, -0.5, 0.8)).into_inner();
-        let (stress, after) = law.update(&turn, 1.0, &before);
+        let (stress, after) = law.response(&turn, 1.0, &before);
         let exact = before.elastic.push_forward(&turn);
         // Rounding of the strain, which is nothing, times the modulus.
         assert!((stress.to_matrix() - exact.to_matrix()).norm() < 1e-14 * YOUNG);

@@ -5,7 +5,7 @@
 //! dn/dv = 1 − n, hence τ = 2G dev h + \[K v/n − K v² (1 − n)/(2n²)\] I, which grows without bound as n → 0. W is ours
 //! from their description: a bulk parameter, a shear modulus and a positive porosity.
 
-use super::Law;
+use super::{Law, Response};
 use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -68,12 +68,7 @@ impl Law for ImprovedHencky {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        state: &SymmetricTensor<T>,
-    ) -> (SymmetricTensor<T>, SymmetricTensor<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, state: &SymmetricTensor<T>) -> Response<Self, T> {
         let b = state.push_forward(delta_f);
         let inverse_jacobian = T::splat(1.0) / b.determinant().sqrt();
         let logarithm = b.ln();

@@ -12,8 +12,7 @@ mod newtonian_fluid;
 mod strength;
 mod viscous;
 
-pub(crate) use any::Asked;
-pub use any::{AnyLaw, SharedLaw, shared};
+pub use any::{Answers, AnyLaw, SharedLaw, shared};
 pub use cam_clay::{CamClay, CamClayState};
 pub use hencky::Hencky;
 pub use hencky_j2::HenckyJ2;
@@ -25,7 +24,7 @@ pub use newtonian_fluid::NewtonianFluid;
 pub use strength::{ElastoplasticState, Strength};
 pub use viscous::Viscous;
 
-use crate::number::{Dual, Real};
+use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use std::fmt::Debug;
@@ -100,6 +99,9 @@ impl<S: State> State for (S, f64) {
 /// The state of a law `M`, made of numbers `T`.
 pub type StateOf<M, T> = <<M as Law>::State as State>::Of<T>;
 
+/// Cauchy stress (Pa) and state after a step of a law `M`, made of numbers `T`.
+pub type Response<M, T> = (SymmetricTensor<T>, StateOf<M, T>);
+
 /// A constitutive law.
 pub trait Law: Sized + Send + Sync {
     /// State of a particle.
@@ -119,37 +121,12 @@ pub trait Law: Sized + Send + Sync {
     /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
     /// Default: of laws whose stress depends on no rate, after a step of any duration.
     fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State) {
-        self.update(f, 1.0, &self.initial_state())
+        self.response(f, 1.0, &self.initial_state())
     }
 
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle
     /// or of eight, or with derivatives.
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        dt: f64,
-        state: &StateOf<Self, T>,
-    ) -> (SymmetricTensor<T>, StateOf<Self, T>);
-
-    /// [`Law::response`] of one particle.
-    #[inline]
-    fn update(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> (SymmetricTensor, Self::State) {
-        self.response(delta_f, dt, state)
-    }
-
-    /// The consistent tangent: the Cauchy stress σ (Pa) of [`Law::update`] and in `slope[3 i + j]` of its components
-    /// the derivatives ∂σ/∂ΔF_ij, while the state of the step's start stays.
-    ///
-    /// An implicit step differentiates P_rel = ΔJ σ ΔF⁻ᵀ, the stress per area at the step's start, whose derivative
-    /// A_ijkl = ∂P_rel,ij/∂ΔF_kl has the geometric part as well: a node's force is Σ V P_rel ∇w and the stiffness
-    /// between two nodes K_ik = Σ V ∂_j w A_ijkl ∂_l w′, with volumes and gradients of the step's start. P_rel of dual
-    /// numbers, from this σ and ΔF of the same variables, is A.
-    fn tangent(&self, delta_f: &Matrix3<f64>, dt: f64, state: &Self::State) -> SymmetricTensor<Dual<9>> {
-        let variables = Matrix3::from_fn(|i, j| Dual::variable(delta_f[(i, j)], 3 * i + j));
-        let mut numbers = vec![0.0; Self::State::NUMBERS];
-        Self::State::write::<f64>(state, |i, number| numbers[i] = *number);
-        self.response(&variables, dt, &Self::State::read(|i| Dual::splat(numbers[i]))).0
-    }
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, dt: f64, state: &StateOf<Self, T>) -> Response<Self, T>;
 
     /// Equivalent plastic strain √(2/3) ∫‖ε̇ᵖ‖ dt; zero of a law that does not flow.
     fn plastic_strain(&self, _state: &Self::State) -> f64 {
@@ -173,6 +150,3 @@ pub trait Law: Sized + Send + Sync {
         (self.wave_modulus(1.0, &SymmetricTensor::default(), &self.initial_state()) / density).sqrt()
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -3,7 +3,7 @@
 //! W = μ/2 (I₁ − 3 − 2 ln J) + λ/2 (ln J)², hence P = μ (F − F⁻ᵀ) + λ ln J F⁻ᵀ and
 //! σ = \[μ (b − I) + λ ln J I\]/J with b = F Fᵀ.
 
-use super::Law;
+use super::{Law, Response};
 use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -50,12 +50,7 @@ impl Law for NeoHookean {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        _dt: f64,
-        state: &SymmetricTensor<T>,
-    ) -> (SymmetricTensor<T>, SymmetricTensor<T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, _dt: f64, state: &SymmetricTensor<T>) -> Response<Self, T> {
         let b = state.push_forward(delta_f);
         let squared_jacobian = b.determinant();
         let inverse_jacobian = T::splat(1.0) / squared_jacobian.sqrt();

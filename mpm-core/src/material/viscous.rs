@@ -7,7 +7,7 @@
 //! speed. The linear one, with the speed c of waves in undeformed material, is Landshoff's (*A numerical method for
 //! treating fluid flow in the presence of shocks*, Los Alamos LA-1930, 1955): it damps what is left behind the front.
 
-use super::{Law, StateOf};
+use super::{Law, Response, StateOf};
 use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::{SymmetricTensor, determinant};
@@ -59,12 +59,7 @@ impl<M: Law> Law for Viscous<M> {
     }
 
     #[inline(always)]
-    fn response<T: Real>(
-        &self,
-        delta_f: &Matrix3<T>,
-        dt: f64,
-        (state, j): &StateOf<Self, T>,
-    ) -> (SymmetricTensor<T>, StateOf<Self, T>) {
+    fn response<T: Real>(&self, delta_f: &Matrix3<T>, dt: f64, (state, j): &StateOf<Self, T>) -> Response<Self, T> {
         let (stress, state) = self.law.response(delta_f, dt, state);
         let relative = determinant(delta_f);
         let j = *j * relative;

@@ -34,9 +34,7 @@ use crate::implicit::linear::{self, Direct, Linear};
 use crate::implicit::{Functions, Moduli, OfHats};
 use crate::ledger::Ledger;
 use crate::memory::Saved;
-use crate::monitor::{Reaction, Totals, WaterBalance};
-use crate::particles::Particles;
-use crate::scene::Part;
+use crate::monitor::WaterBalance;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
@@ -91,12 +89,8 @@ impl<const D: usize> Simulation<D> for Solver<D> {
         &self.ledger
     }
 
-    fn particles(&self) -> &Particles<D> {
-        &self.scene.body.particles
-    }
-
-    fn totals(&self) -> Totals {
-        self.scene.body.totals(self.ledger.accumulated)
+    fn scene(&self) -> &Scene<D> {
+        &self.scene
     }
 
     fn condition(&self) -> f64 {
@@ -128,10 +122,6 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     }
 
     /// The effective stress.
-    fn on(&self, part: Part) -> Reaction {
-        self.ledger.on(part, &self.scene.contacts)
-    }
-
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
         self.scene.body.particles.stress.clone()
     }

@@ -27,10 +27,10 @@ pub(super) struct Pores<const D: usize> {
 impl<const D: usize> Pores<D> {
     /// Puts the particles in the order `order`.
     pub(super) fn permute(&mut self, order: &[u32]) {
-        permute(&mut self.pressure, order);
-        permute(&mut self.slope, order);
-        permute(&mut self.place, order);
-        permute(&mut self.half_size, order);
+        permute(&mut self.pressure, order, 1);
+        permute(&mut self.slope, order, 1);
+        permute(&mut self.place, order, 1);
+        permute(&mut self.half_size, order, 1);
     }
 
     /// The domains of `particles`.

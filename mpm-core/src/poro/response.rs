@@ -7,14 +7,14 @@
 use super::settings::VolumeRate;
 use super::water::Water;
 use crate::implicit::response::{MOST, Square, minor, variables};
-use crate::material::{AnyLaw, Asked};
-use crate::number::Dual;
+use crate::material::{Answers, AnyLaw, SharedLaw};
+use crate::number::{Dual, Real};
 use crate::tensor::determinant;
 use nalgebra::{Matrix3, SMatrix};
 
 /// A particle at the start of a step.
 pub(super) struct Particle<'a, const D: usize> {
-    pub(super) law: &'a dyn AnyLaw,
+    pub(super) law: &'a SharedLaw,
     pub(super) state: &'a [f64],
     pub(super) water: &'a Water<D>,
     pub(super) rate: VolumeRate,
@@ -53,7 +53,10 @@ pub(super) struct Slopes<const D: usize> {
 impl<const D: usize> Particle<'_, D> {
     /// The answer to `f`, completed to three dimensions, at the pressure `p` (Pa) with the gradient `slope` (Pa/m).
     #[inline]
-    pub(super) fn respond<T: Asked>(&self, f: &Matrix3<T>, p: T, slope: &[f64; D]) -> Answer<T> {
+    pub(super) fn respond<T: Real>(&self, f: &Matrix3<T>, p: T, slope: &[f64; D]) -> Answer<T>
+    where
+        dyn AnyLaw: Answers<T>,
+    {
         let number = T::splat;
         let mut cofactor = [[T::default(); D]; D];
         for (i, row) in cofactor.iter_mut().enumerate() {
@@ -61,7 +64,7 @@ impl<const D: usize> Particle<'_, D> {
                 *entry = minor(f, i, j);
             }
         }
-        let effective = T::stress(self.law, f, self.dt, self.state);
+        let effective = self.law.stress(f, self.dt, self.state);
         let volume = number(self.volume);
         let change = determinant(f);
         let solid = number((1.0 - self.water.porosity) / self.jacobian) / change;
@@ -111,7 +114,7 @@ impl<const D: usize> Particle<'_, D> {
 
     fn derive<const N: usize>(&self, f: &SMatrix<f64, D, D>, p: f64, slope: &[f64; D]) -> Slopes<D>
     where
-        Dual<N>: Asked,
+        dyn AnyLaw: Answers<Dual<N>>,
     {
         let answer = self.respond(&variables::<D, N>(f), Dual::variable(p, D * D), slope);
         let by_f =

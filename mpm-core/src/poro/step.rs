@@ -106,7 +106,7 @@ impl<const D: usize> Step<'_, D> {
     fn particle(&self, p: usize) -> Particle<'_, D> {
         let particles = &self.body.particles;
         Particle {
-            law: self.body.law.as_ref(),
+            law: &self.body.law,
             state: self.body.state(p),
             water: self.water,
             rate: self.settings.volume_rate,

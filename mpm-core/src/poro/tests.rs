@@ -12,6 +12,7 @@ use crate::material::{Law, shared};
 use crate::memory::{Memory, Memoryless};
 use crate::space::embed;
 use crate::stage::{Constraint, End, Wall, WallKind};
+use crate::{Part, Particles};
 use nalgebra::{SMatrix, SVector};
 
 const H: f64 = 0.125;
@@ -120,7 +121,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).ghosts(0.1, 0.01) };
     let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     solver.step().unwrap();
-    let exact = law.update(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();
+    let exact = law.response(&embed(&f), 1.0, &law.initial_state()).0.to_matrix();
     let p = solver.particles();
     for k in 0..p.len() {
         let error = (p.stress[k].to_matrix() - exact).norm();

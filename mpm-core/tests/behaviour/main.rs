@@ -5,6 +5,7 @@
 mod contact;
 mod execution;
 mod footing;
+mod laws;
 mod memory;
 mod modes;
 mod rigid_nodes;

@@ -2,8 +2,9 @@
 
 use crate::scenes::{angular_momentum, block, open_grid, scene_with, swirl};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
+use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
-use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
+use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{BodyForce, KineticDamping, ParticleFilter};
 use mpm_core::{Axis, Basis, Body, Grid, Particles, Scene, Simulation};
@@ -179,6 +180,30 @@ fn a_particle_that_enters_a_cell_alone_is_strained_without_bound_but_by_musl() {
     assert!((usl[2] / usl[1] - 10.0).abs() < 0.5, "{usl:?}");
     assert!((musl[2] / musl[1] - 1.0).abs() < 0.01, "{musl:?}");
     assert!(musl[2] < 1e-3 && usl[2] > 0.5, "{musl:?} {usl:?}");
+}
+
+/// A square whose last row and column of particles stand on nodes of hats flies on as it is: the nodes beyond, which they
+/// see by their gradients alone, have no mass and move along.
+#[test]
+fn a_body_on_nodes_flies_without_strain() {
+    fn flight<T: Transfer<2>>(transfer: T, remedy: Box<dyn Remedy<2>>) {
+        let h = 0.5;
+        let mut particles = block(h, 2, [4, 4], [6, 7]);
+        for x in particles.position.iter_mut().chain(&mut particles.reference) {
+            *x = x.map(|x| x + 0.25 * h);
+        }
+        particles.velocity.fill([1.0, 0.5]);
+        let (scene, settings) = scene_with(open_grid(h, 20), particles, transfer);
+        let mut solver = Solver::<2, 2, Linear, T>::new(scene, settings.remedy(remedy)).unwrap();
+        solver.advance(20).unwrap();
+        let p = solver.particles();
+        for (v, j) in p.velocity.iter().zip(&p.jacobian) {
+            assert!((v[0] - 1.0).hypot(v[1] - 0.5) < 1e-13 && (j - 1.0).abs() < 1e-13, "{v:?} {j}");
+        }
+    }
+    flight(Flip::default(), Box::new(Standard));
+    flight(Musl::default(), Box::new(Standard));
+    flight(Flip::default(), Box::new(Fbar::new(Form::Consistent)));
 }
 
 /// Trace and determinant of the step that takes strain and velocity of a wave of `waves` periods on a periodic bar of

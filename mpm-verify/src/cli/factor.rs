@@ -25,10 +25,10 @@ pub(crate) struct Factor {
 
 impl Factor {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let height = SceneFile::read(&self.file, self.least)?.height;
+        let height = SceneFile::read(&self.file, self.least, self.making.memory())?.height;
         let mut search = Search::new([self.least, self.most], height, self.trials.into())?;
         while let Some(factor) = search.next() {
-            let scene = SceneFile::read(&self.file, factor)?;
+            let scene = SceneFile::read(&self.file, factor, self.making.memory())?;
             let folder = self.making.folder().map(|out| out.join(format!("{factor:.6}")));
             let record = self.making.make(&scene.case, &scene.spec, folder.as_deref())?;
             say(search.add(factor, &record) + "\n")?;

@@ -8,9 +8,10 @@ use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
 use mpm_verify::report::{discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
-use mpm_verify::run::size::{GIBIBYTE, Size, available_memory};
+use mpm_verify::run::size::available_memory;
 use mpm_verify::run::{RECORD, require_tables};
 use mpm_verify::scheme::{BasisName, RemedyName, TransferName};
+use mpm_verify::size::{GIBIBYTE, Size};
 use mpm_verify::study::found::own_record;
 use mpm_verify::study::judge::{exit_code, judge, judged_run};
 use std::path::Path;
@@ -123,8 +124,13 @@ impl Making {
     /// Makes `spec` of `case` in a folder, if there is one.
     pub(super) fn make(&self, case: &Case, spec: &RunSpec, folder: Option<&Path>) -> Result<Record, Error> {
         let saving = saving(self.checkpoint_every, self.resume.is_some());
-        let memory = self.memory.map(|gib| gib * GIBIBYTE).or_else(available_memory);
-        run_one(case, spec, folder.map(|folder| (folder, saving)), (or_all_cores(self.threads), memory), self.told)
+        let place = folder.map(|folder| (folder, saving));
+        run_one(case, spec, place, (or_all_cores(self.threads), self.memory()), self.told)
+    }
+
+    /// Memory that a scene may have (bytes), if the machine tells.
+    pub(super) fn memory(&self) -> Option<f64> {
+        self.memory.map(|gib| gib * GIBIBYTE).or_else(available_memory)
     }
 }
 
@@ -138,7 +144,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let scene = SceneFile::read(&self.file, 1.0)?;
+        let scene = SceneFile::read(&self.file, 1.0, self.making.memory())?;
         if self.making.told.progress() {
             say(format!("{}\n", one_line(&scene.title)))?;
             for line in &scene.made {

@@ -7,7 +7,7 @@ use mpm_verify::night::Night;
 use mpm_verify::record::Record;
 use mpm_verify::report::{Files, discard_report, write_report};
 use mpm_verify::run::checkpoint;
-use mpm_verify::run::size::GIBIBYTE;
+use mpm_verify::size::GIBIBYTE;
 use mpm_verify::study::gather::Gathered;
 use mpm_verify::study::judge::exit_code;
 use mpm_verify::study::plan::{Plan, Shard};

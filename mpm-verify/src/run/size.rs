@@ -4,6 +4,7 @@ use crate::case::Case;
 use crate::error::Error;
 use crate::job::Job;
 use crate::parameter::Parameters;
+use crate::size::{GIBIBYTE, MEBIBYTE, Size};
 use crate::spec::RunSpec;
 use std::path::Path;
 
@@ -14,26 +15,8 @@ const LARGE: f64 = 4.0 * MEBIBYTE;
 /// Times that cells are made larger, at most; and from one scene to another whose growth tells the dimension.
 const MOST_LARGER: u32 = 1024;
 const TELLING: f64 = 4.0;
-/// Particles bear numbers of 32 bits.
-const MOST_PARTICLES: f64 = u32::MAX as f64;
-const MEBIBYTE: f64 = 1_048_576.0;
-/// Bytes of a gibibyte, the unit of `--memory`.
-pub const GIBIBYTE: f64 = 1024.0 * MEBIBYTE;
 /// Where Linux tells what memory is to be had.
 const MEMORY: &str = "/proc/meminfo";
-
-/// Size of a scene: exact, or extrapolated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Size {
-    /// Particles.
-    pub particles: f64,
-    /// Nodes.
-    pub nodes: f64,
-    /// Bytes of memory at the start. Newton's method takes more: its matrices and their factors.
-    pub bytes: f64,
-    /// Whether it is that of a coarser scene times the ratio of cells.
-    pub worked_out: bool,
-}
 
 impl Size {
     /// Size of the scene of a run.
@@ -41,6 +24,9 @@ impl Size {
     /// # Errors
     /// The parameters make no scene.
     pub fn of(case: &Case, spec: &RunSpec) -> Result<Self, Error> {
+        if let Some(size) = case.size {
+            return Ok(size);
+        }
         let parameters = Parameters::new(&case.parameters, &spec.set)?;
         // Allocations are counted thread by thread, so that the scene must be built on one.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
@@ -91,29 +77,12 @@ impl Size {
         Ok((size, job.discretisation().dim as f64))
     }
 
-    fn times(self, factor: f64) -> Self {
-        Self {
-            particles: self.particles * factor,
-            nodes: self.nodes * factor,
-            bytes: self.bytes * factor,
-            worked_out: true,
-        }
-    }
-
     /// Checks that a scene of this size fits in `memory` (bytes), if that is known.
     ///
     /// # Errors
     /// It can't.
     pub fn require(self, memory: Option<f64>, spec: &RunSpec) -> Result<(), Error> {
-        let refuse = |why: String| Err(given(Error::Input(format!("{why}: {self}")), spec));
-        match memory {
-            _ if self.particles > MOST_PARTICLES => refuse(format!("more than {MOST_PARTICLES:e} particles")),
-            Some(memory) if self.bytes > memory => refuse(format!(
-                "the scene is larger than the {:.3} GiB of memory that it may have (--memory)",
-                memory / GIBIBYTE
-            )),
-            _ => Ok(()),
-        }
+        self.too_large(memory).map_or(Ok(()), |why| Err(given(Error::Input(why), spec)))
     }
 }
 
@@ -134,21 +103,6 @@ pub fn require_together(sizes: &[Size], memory: f64, side_by_side: usize) -> Res
         "the {} largest scenes take {all:.3} GiB side by side, and may take {memory:.3} GiB (--memory): fewer --threads",
         bytes.len()
     )))
-}
-
-impl std::fmt::Display for Size {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let count = |n: f64| match self.worked_out {
-            true => format!("about {n:.2e}"),
-            false => n.to_string(),
-        };
-        let (particles, nodes) = (count(self.particles), count(self.nodes));
-        let memory = match self.bytes < GIBIBYTE {
-            true => format!("{:.1} MiB", self.bytes / MEBIBYTE),
-            false => format!("{:.1} GiB", self.bytes / GIBIBYTE),
-        };
-        write!(f, "{particles} particles, {nodes} nodes, {memory} at the start")
-    }
 }
 
 /// Whether lengths that are whole numbers of cells are likely to be so of cells as many times larger.

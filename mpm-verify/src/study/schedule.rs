@@ -6,7 +6,8 @@ use super::plan::Plan;
 use super::*;
 use crate::files::lock::hold;
 use crate::run::discard_run;
-use crate::run::size::{Size, require_together};
+use crate::run::size::require_together;
+use crate::size::Size;
 use std::sync::{Mutex, PoisonError};
 
 /// Hears of the progress of runs. `run` is the run's place in the plan.

@@ -140,9 +140,9 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
     },
     Fault {
         name: "the wave of a deformed state is ten times as fast",
-        file: "explicit/second_half.rs",
-        sound: "p.law.wave_modulus(j, &stress, &after)",
-        broken: "Eight::splat(100.0) * p.law.wave_modulus(j, &stress, &after)",
+        file: "material/any.rs",
+        sound: "    law.wave_modulus(j, &stress, &after)",
+        broken: "    Eight::splat(100.0) * law.wave_modulus(j, &stress, &after)",
         seen_by: &[(RATE, "completes")],
     },
     Fault {

@@ -269,7 +269,7 @@ fn strained<const S: usize, B: Basis<S>>(
         // A shape of its own with the determinant J̄.
         let shape = SMatrix::<f64, 2, 2>::new(1.0 + 0.2 * l[0], 0.3 * l[1], 0.1, 1.0);
         let f_bar = shape * (p.j_bar[k] / determinant(&shape)).sqrt();
-        let (stress, state) = law.update(&embed(&f_bar), 1.0, &law.initial_state());
+        let (stress, state) = law.response(&embed(&f_bar), 1.0, &law.initial_state());
         p.stress[k] = stress;
         states.push(state);
         gradients.push(SMatrix::<f64, 2, 2>::from_row_slice(&l));
@@ -323,7 +323,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
         let next = remedy.next_j_bar(&moved, &deformation, average.as_mut());
         let next = next.unwrap().to_vec();
         let delta_f = take(&mut moved, &mut deformation, &next);
-        let energy = |k: usize| law.energy(&law.update(&embed(&delta_f[k]), 1.0, &states[k]).1);
+        let energy = |k: usize| law.energy(&law.response(&embed(&delta_f[k]), 1.0, &states[k]).1);
         (0..moved.len()).map(|k| moved.reference_volume[k] * energy(k)).sum()
     };
     let rate = (stored(1.0) - stored(-1.0)) / (2.0 * epsilon);

@@ -51,7 +51,7 @@ impl<const D: usize> Transfer<D> for Musl {
         self.sweep.there_and_back(lattice, particles, slabs);
         let Sweep { nodes: own, mapped } = &mut self.sweep;
         for ((own, mapped), node) in own.iter_mut().zip(mapped).zip(nodes) {
-            own.motion = Node::ZERO;
+            own.motion = node.motion;
             if node.mass() > 0.0 {
                 own.motion = node.motion - node.change + *mapped / Node::splat(node.mass());
             }

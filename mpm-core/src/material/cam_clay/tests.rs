@@ -1,7 +1,7 @@
 //! Clay on paths that have closed forms, and what thermodynamics asks of any.
 
 use super::*;
-use crate::material::tests::side_by_side;
+use crate::material::any::tests::side_by_side;
 use crate::number::Dual;
 use nalgebra::Vector3;
 use proptest::prelude::*;
@@ -77,7 +77,7 @@ proptest! {
             let mut determinant = 1.0;
             for increment in &path {
                 let before = state;
-                let (stress, after) = law.update(increment, 1.0, &before);
+                let (stress, after) = law.response(increment, 1.0, &before);
                 state = after;
                 determinant *= increment.determinant();
                 let volume = 0.5 * state.elastic.determinant().ln() + state.plastic_volume;
@@ -141,7 +141,7 @@ fn flow_is_associated_for_the_ellipse_alone() {
         for start in [0.3, 0.9] {
             let law = clay(start * PRECONSOLIDATION).shaped(alpha, gamma).unwrap();
             let increment = stretches([-0.05, 0.02, 0.02]);
-            let state = law.update(&increment, 1.0, &law.initial_state()).1;
+            let state = law.response(&increment, 1.0, &law.initial_state()).1;
             let flow = plastic_step(&law.initial_state(), &increment, &state);
             let compression = -flow.trace();
             let shear = (flow[(1, 1)] - flow[(0, 0)]) * 2.0 / 3.0;

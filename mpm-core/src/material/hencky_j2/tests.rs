@@ -1,8 +1,8 @@
 //! Plastic flow against closed forms.
 
 use super::*;
+use crate::material::any::tests::side_by_side;
 use crate::material::strength::ACCURACY;
-use crate::material::tests::side_by_side;
 use crate::number::{Dual, EIGHT};
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
@@ -32,9 +32,9 @@ fn deviator(stress: &SymmetricTensor, f_determinant: f64) -> SymmetricTensor {
 
 /// Steps from undeformed material along increments of the deformation gradient; the last stress and state.
 fn drive(law: &HenckyJ2, increments: &[Matrix3<f64>]) -> (SymmetricTensor, ElastoplasticState) {
-    let mut last = law.update(&Matrix3::identity(), 1.0, &law.initial_state());
+    let mut last = law.response(&Matrix3::identity(), 1.0, &law.initial_state());
     for increment in increments {
-        last = law.update(increment, 1.0, &last.1);
+        last = law.response(increment, 1.0, &last.1);
     }
     last
 }
@@ -61,7 +61,7 @@ proptest! {
             let mut determinant = 1.0;
             for increment in &path {
                 let before = state;
-                let (stress, after) = law.update(increment, 1.0, &before);
+                let (stress, after) = law.response(increment, 1.0, &before);
                 state = after;
                 determinant *= increment.determinant();
                 // J² of the elastic part is that of the whole.

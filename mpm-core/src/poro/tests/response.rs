@@ -16,7 +16,7 @@ fn an_answer_is_pulled_back_to_the_start() {
     let state = law.initial_state();
     let row = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
     let particle =
-        Particle { law: &law, state: &row, water: &water, rate: VolumeRate::Exact, dt: 1.0, volume, jacobian };
+        Particle { law: &law.into(), state: &row, water: &water, rate: VolumeRate::Exact, dt: 1.0, volume, jacobian };
     let answer = particle.respond(&f, p, &slope);
 
     let (j, inverse) = (f.determinant(), f.try_inverse().unwrap());
@@ -24,7 +24,7 @@ fn an_answer_is_pulled_back_to_the_start() {
     let pores = 1.0 - solid;
     let at_rest = (1.0 - POROSITY).powi(2) / POROSITY.powi(3);
     let kappa = KAPPA * at_rest * pores.powi(3) / (solid * solid);
-    let total = law.update(&f, 1.0, &state).0.to_matrix() - Matrix3::identity() * p;
+    let total = law.response(&f, 1.0, &state).0.to_matrix() - Matrix3::identity() * p;
     let stress = total * inverse.transpose() * (j * volume);
     let mobility = inverse * inverse.transpose() * (j * volume * kappa);
     let head = inverse.transpose() * Vector3::from(slope) - Vector3::from(g) * density;

@@ -15,6 +15,8 @@ pub(super) struct Source {
     pub(super) text: String,
     /// Divisor of all strengths; 1 as a rule.
     pub(super) weaker: f64,
+    /// Memory that the scene may have (bytes), if known.
+    pub(super) memory: Option<f64>,
 }
 
 impl Source {

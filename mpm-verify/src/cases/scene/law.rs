@@ -7,7 +7,11 @@ use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, NeoHookean, 
 
 /// The law of a form, in a body of the given porosity.
 pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw, mpm_core::Error> {
-    let soaked = |bulk: f64, shear: f64| ImprovedHencky::new(bulk, shear, porosity.unwrap_or(f64::NAN));
+    let soaked = |bulk: f64, shear: f64| {
+        let what = "water in the pores of a body of this law";
+        let dry = mpm_core::Error::Input { what, value: 0.0, allowed: "one [water], whose porosity the law has" };
+        ImprovedHencky::new(bulk, shear, porosity.ok_or(dry)?)
+    };
     Ok(match form {
         LawForm::NeoHookean { young_modulus_pa: e, poisson_ratio: nu } => NeoHookean::new(e.0, nu.0)?.into(),
         LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu } => Hencky::new(e.0, nu.0)?.into(),

@@ -8,9 +8,11 @@ mod form;
 mod law;
 mod made;
 mod phase;
+mod polygon;
 mod setup;
 mod shape;
 mod watch;
+mod weight;
 
 #[cfg(test)]
 mod tests;
@@ -20,6 +22,7 @@ use crate::cases::prelude::*;
 use crate::check::On;
 use crate::files::{Mark, read_text};
 use crate::problem::Driver;
+use crate::size::Size;
 use crate::verdict::Kind;
 use fault::Source;
 use form::{FORMAT, Form};
@@ -49,9 +52,10 @@ impl SceneFile {
     /// Reads a file and divides the strengths in it by `weaker`. Names made from it live as long as the program, which reads few.
     ///
     /// # Errors
-    /// The file can't be read, or makes no scene: the error names line and key; no strength is there to be divided.
-    pub fn read(path: &Path, weaker: f64) -> Result<Self, Error> {
-        let source = Source { path: path.to_path_buf(), text: read_text(path)?, weaker };
+    /// The file can't be read, or makes no scene: the error names line and key; no strength is there to be divided; the
+    /// scene is larger than `memory` (bytes), if that is known, and is not built.
+    pub fn read(path: &Path, weaker: f64, memory: Option<f64>) -> Result<Self, Error> {
+        let source = Source { path: path.to_path_buf(), text: read_text(path)?, weaker, memory };
         let form = source.form()?;
         let format = form.format.get_ref();
         if *format != FORMAT {
@@ -79,7 +83,7 @@ impl SceneFile {
             _ => begin::<3>(&source, spec, values),
         };
         Ok(Self {
-            case: case(dimension, level, scheme, found.mass, Box::new(begin)),
+            case: Case { size: Some(found.size), ..case(dimension, level, scheme, found.mass, Box::new(begin)) },
             spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false },
             title,
             made: found.made,
@@ -97,6 +101,7 @@ struct Found {
     mark: u32,
     made: Vec<String>,
     height: f64,
+    size: Size,
 }
 
 /// Builds every phase once, so that what is wrong in the last one is said before the first.
@@ -105,10 +110,11 @@ where
     Scene<D>: Solvable<D>,
 {
     let setup = Setup::<D>::new(source, form)?;
-    let mut mass = 0.0;
+    let (mut mass, mut size) = (0.0, setup.size);
     for phase in &setup.phases {
         let run = setup.solve(phase).map_err(|e| setup.fault(source, phase, &e))?;
         mass = run.totals().mass;
+        (size.particles, size.nodes) = (run.particles().len() as f64, run.work().nodes as f64);
     }
     let mut all = source.text.clone().into_bytes();
     let Seeds { places, volumes, velocities } = &setup.seeds;
@@ -116,7 +122,7 @@ where
     all.extend(numbers.flat_map(|x| x.to_le_bytes()));
     all.extend(source.weaker.to_le_bytes());
     let (made, height) = (setup.made(), setup.reach()[D - 1]);
-    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height })
+    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height, size })
 }
 
 fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error>

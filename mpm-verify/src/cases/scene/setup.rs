@@ -7,7 +7,9 @@ use super::form::{
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{Seeds, ends, holds, seed, vector};
+use super::weight::weigh;
 use crate::cases::prelude::*;
+use crate::size::Size;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit;
 use mpm_core::implicit::{self, GHOST, TimeRule};
@@ -36,6 +38,8 @@ pub(super) struct Setup<const D: usize> {
     grid: Grid<D>,
     pub(super) seeds: Seeds<D>,
     pub(super) spacing: f64,
+    /// Size as it was weighed.
+    pub(super) size: Size,
 }
 
 impl<const D: usize> Setup<D> {
@@ -45,13 +49,17 @@ impl<const D: usize> Setup<D> {
         let scheme = scheme(source, &form)?;
         let body = form.body.get_ref();
         let spacing = grid.h / f64::from(body.particles_per_direction.0);
+        let size = weigh(source, body, &grid, spacing, scheme)?;
+        if let Some(why) = size.too_large(source.memory) {
+            return Err(source.at(&form.grid, why + "; larger cells or fewer particles_per_direction make it smaller"));
+        }
         let velocity = match &body.velocity_m_s {
             Some(given) => vector(source, &form.body, "velocity_m_s", given)?,
             None => [0.0; D],
         };
         let seeds = seed(source, body, &grid, spacing, velocity)?;
         let phases = phases(source, &form, scheme, grid.h)?;
-        let setup = Self { scheme, phases, grid, seeds, spacing, form };
+        let setup = Self { scheme, phases, grid, seeds, spacing, size, form };
         setup.check(source)?;
         Ok(setup)
     }
@@ -119,6 +127,10 @@ impl<const D: usize> Setup<D> {
     /// cell along an axis where it ends.
     fn check_support(&self, source: &Source, support: &Line<SupportForm>) -> Result<(), Error> {
         let (within, velocity_m_s, rise_s, phases) = match support.get_ref() {
+            SupportForm::Wall { kind: WallForm::Separable, .. } if self.scheme.transfer() == TransferName::Musl => {
+                let said = "musl gains energy at a separable wall, up to a fifth in an impact: a roller or another transfer is allowed";
+                return Err(source.at(support, said));
+            }
             SupportForm::Wall { axis, end, .. } => {
                 let (lo, hi) = self.grid.axes[*axis as usize].wall_ends();
                 let there = matches!(end, EndForm::Lo) && lo || matches!(end, EndForm::Hi) && hi;

@@ -3,11 +3,12 @@
 
 use super::fault::{Line, Source};
 use super::form::{BodyForm, Ends, Finite, Region, ShapeForm};
+use super::polygon::{Polygon, crossing};
 use crate::cases::prelude::*;
 use std::collections::{HashMap, HashSet};
 
 /// Most particles of a scene.
-const MOST: usize = 50_000_000;
+pub(super) const MOST: usize = 50_000_000;
 /// Most lattice points about a shape, over that: each is looked at.
 const LOOKED_AT: f64 = 4.0;
 /// A point this near to a side, over the distance of points, is in the shape.
@@ -38,6 +39,7 @@ pub(super) fn seed<const D: usize>(
 ) -> Result<Seeds<D>, Error> {
     let mut seeds = Seeds::default();
     let mut taken = HashSet::new();
+    let alone = body.shapes.len() == 1;
     for shape in &body.shapes {
         let before = seeds.places.len();
         if let ShapeForm::Particles { file } = shape.get_ref() {
@@ -50,7 +52,7 @@ pub(super) fn seed<const D: usize>(
             }
             for k in form.lattice() {
                 let x = k.map(|k| (k as f64 + 0.5) * spacing);
-                if (form.holds)(&x) && taken.insert(k) {
+                if (form.holds)(&x) && (alone || taken.insert(k)) {
                     if seeds.places.len() - before >= room {
                         return Err(too_many(source, shape));
                     }
@@ -118,7 +120,7 @@ fn check_on_grid<const D: usize>(
     Ok(())
 }
 
-fn too_many<T>(source: &Source, shape: &Line<T>) -> Error {
+pub(super) fn too_many<T>(source: &Source, shape: &Line<T>) -> Error {
     let said = format!("more particles than the {MOST} that a scene may have");
     source.at(shape, said)
 }
@@ -196,6 +198,9 @@ impl<const D: usize> Shape<D> {
                     return Err(source.at(at, said));
                 }
                 let z = z_m.map_or([0.0; 2], |Ends(ends)| ends);
+                if z.iter().any(|end| !end.is_finite()) {
+                    return Err(source.at(at, "z_m of a polygon without an end: two finite heights are allowed (m)"));
+                }
                 let end = |best: fn(f64, f64) -> f64, side: usize| {
                     std::array::from_fn(|a| match a {
                         2 => z[side],
@@ -203,7 +208,8 @@ impl<const D: usize> Shape<D> {
                     })
                 };
                 let (least, most) = (end(f64::min, 0), end(f64::max, 1));
-                Ok(Self::between(least, most, spacing, move |x| is_inside(&corners, [x[0], x[1]], margin)))
+                let polygon = Polygon::new(corners, margin);
+                Ok(Self::between(least, most, spacing, move |x| polygon.holds([x[0], x[1]])))
             }
             ShapeForm::Particles { .. } => Ok(Self { rows: [(0, 1, 0); D], holds: Box::new(|_| false) }),
         }
@@ -239,43 +245,6 @@ impl<const D: usize> Shape<D> {
             k
         })
     }
-}
-
-/// Two sides of a polygon, by their first corners, that cross each other.
-fn crossing(corners: &[[f64; 2]]) -> Option<[usize; 2]> {
-    let count = corners.len();
-    let side = |k: usize| [corners[k], corners[(k + 1) % count]];
-    // On which side of a line from a to b a point lies.
-    let turn = |[a, b]: [[f64; 2]; 2], c: [f64; 2]| {
-        let (along, off) = ([b[0] - a[0], b[1] - a[1]], [c[0] - a[0], c[1] - a[1]]);
-        along[0] * off[1] - along[1] * off[0]
-    };
-    let parts = |line, [a, b]: [[f64; 2]; 2]| turn(line, a) * turn(line, b) < 0.0;
-    let pairs = (0..count).flat_map(|k| (k + 1..count).map(move |m| [k, m]));
-    let cross = |[k, m]: &[usize; 2]| {
-        let (one, other) = (side(*k), side(*m));
-        parts(one, other) && parts(other, one)
-    };
-    pairs.into_iter().find(cross)
-}
-
-/// Whether a point is in a polygon: on a side, or to the right of an odd number of sides.
-fn is_inside(corners: &[[f64; 2]], [x, y]: [f64; 2], margin: f64) -> bool {
-    let mut inside = false;
-    for (k, b) in corners.iter().enumerate() {
-        let a = corners[(k + corners.len() - 1) % corners.len()];
-        let (along, off) = ([b[0] - a[0], b[1] - a[1]], [x - a[0], y - a[1]]);
-        let length = along[0].hypot(along[1]);
-        let (ahead, beside) =
-            ((off[0] * along[0] + off[1] * along[1]) / length, (off[0] * along[1] - off[1] * along[0]) / length);
-        if beside.abs() <= margin && (-margin..=length + margin).contains(&ahead) {
-            return true;
-        }
-        if (a[1] > y) != (b[1] > y) && x < a[0] + along[0] * (y - a[1]) / along[1] {
-            inside = !inside;
-        }
-    }
-    inside
 }
 
 /// Adds the particles of a table. Without a volume they have that of the lattice, without a velocity that of the body.

@@ -3,13 +3,15 @@ use crate::cases;
 use crate::parameter::Parameters;
 use std::path::PathBuf;
 
+mod pairs;
+
 fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
 }
 
 /// A run of a shipped file, and the same of a case, at their start.
 fn both(file: &str, case: &str, level: &str, set: &[&str]) -> [Box<dyn Job>; 2] {
-    let scene = SceneFile::read(&shipped(file), 1.0).unwrap();
+    let scene = SceneFile::read(&shipped(file), 1.0, None).unwrap();
     let case = cases::find(case).unwrap();
     let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
     let parameters = Parameters::new(&case.parameters, &set).unwrap();
@@ -63,7 +65,7 @@ fn refusal(from: &str, to: &str) -> String {
     let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
     assert!(text.contains(from), "{from}");
     std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
-    match SceneFile::read(&path, 1.0) {
+    match SceneFile::read(&path, 1.0, None) {
         Ok(_) => format!("{to}: nothing is wrong with it"),
         Err(e) => e.to_string(),
     }
@@ -79,7 +81,7 @@ fn a_phase_lasts_as_long_as_it_says() {
     let text = std::fs::read_to_string(shipped("slope.toml")).unwrap();
     std::fs::write(&path, text.replace("duration_s = 1.0", "duration_s = 0.05").replace("cfl = 0.3", "cfl = 0.9"))
         .unwrap();
-    let scene = SceneFile::read(&path, 1.0).unwrap();
+    let scene = SceneFile::read(&path, 1.0, None).unwrap();
     let none = Parameters::new(&[], &[]).unwrap();
     let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
     let times: Vec<f64> = (0..3).map(|_| job.advance().unwrap().0[0].1).collect();
@@ -171,7 +173,7 @@ fn particles_stand_where_shapes_are() {
     let shape = text.lines().find(|line| line.starts_with("polygon")).unwrap();
     let count = |by: &str| {
         std::fs::write(&path, text.replace(shape, by)).unwrap();
-        SceneFile::read(&path, 1.0).map(|scene| {
+        SceneFile::read(&path, 1.0, None).map(|scene| {
             let none = Parameters::new(&[], &[]).unwrap();
             let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
             job.particles()[0].values.len()
@@ -190,7 +192,7 @@ fn particles_stand_where_shapes_are() {
     std::fs::write(folder.path().join("p.csv"), "x (m),y (m),volume (m²),velocity_x (m/s)\n1.1,1,0.2,2\n2.3,1,0.1,0\n")
         .unwrap();
     assert_eq!(count(table).unwrap(), 2);
-    let scene = SceneFile::read(&path, 1.0).unwrap();
+    let scene = SceneFile::read(&path, 1.0, None).unwrap();
     assert!(scene.made[0].contains("0.30 m²"), "{}", scene.made[0]);
     let none = Parameters::new(&[], &[]).unwrap();
     let start = (scene.case.begin)(&scene.spec, &none).unwrap().particles();
@@ -224,11 +226,11 @@ fn particles_stand_where_shapes_are() {
 
 #[test]
 fn a_strength_is_divided_in_every_phase_where_there_is_one() {
-    let weak = SceneFile::read(&shipped("slope.toml"), 2.0).unwrap();
+    let weak = SceneFile::read(&shipped("slope.toml"), 2.0, None).unwrap();
     for (line, strength) in weak.made[1..].iter().zip(["10000 Pa", "4000 Pa"]) {
         assert!(line.contains(strength), "{line}");
     }
     assert_eq!(weak.height, 5.0);
-    let refused = SceneFile::read(&shipped("cook.toml"), 2.0).err().unwrap().to_string();
+    let refused = SceneFile::read(&shipped("cook.toml"), 2.0, None).err().unwrap().to_string();
     assert!(refused.contains("law") && refused.contains("no strength"), "{refused}");
 }

@@ -134,7 +134,7 @@ mod tests {
             let mut shear = 0.0;
             let stretch = |k: f64| Matrix3::from_diagonal(&[k.exp(), (-k).exp(), 1.0].into());
             for _ in 0..4000 {
-                let (stress, after) = law.update(&stretch(5e-4), 1.0, &state);
+                let (stress, after) = law.response(&stretch(5e-4), 1.0, &state);
                 (state, shear) = (after, 0.5 * (stress.xx - stress.yy));
             }
             let exact = strip.strength();

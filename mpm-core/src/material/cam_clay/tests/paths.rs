@@ -44,7 +44,7 @@ fn isotropic_compression_has_its_two_lines() {
         for end in [-0.01, -0.08, -0.15, -0.14, -0.149, -0.2_f64] {
             let increment = Matrix3::identity() * ((end - strain) / 3.0).exp();
             strain = end;
-            state = law.update(&increment, 1.0, &state).1;
+            state = law.response(&increment, 1.0, &state).1;
             let [p, q, pc] = stresses(&law, &state);
             largest = largest.max(p);
             assert!(q < 1e-9 * p && (pc / largest - 1.0).abs() < 1e-9);
@@ -75,7 +75,7 @@ fn undrained_shear_follows_its_stress_path() {
             let mut state = law.initial_state();
             let mut flown = 0;
             for _ in 0..steps {
-                state = law.update(&undrained(0.3 / f64::from(steps)), 1.0, &state).1;
+                state = law.response(&undrained(0.3 / f64::from(steps)), 1.0, &state).1;
                 let [p, q, found] = stresses(&law, &state);
                 if state.plastic_strain > 0.0 {
                     flown += 1;
@@ -124,7 +124,7 @@ fn undrained_shear_strain_converges_with_first_order() {
     let errors = [40, 80, 160].map(|steps| {
         let mut state = law.initial_state();
         for _ in 0..steps {
-            state = law.update(&undrained(end / f64::from(steps)), 1.0, &state).1;
+            state = law.response(&undrained(end / f64::from(steps)), 1.0, &state).1;
         }
         stresses(&law, &state)[0] / exact - 1.0
     });
@@ -138,7 +138,7 @@ fn undrained_shear_strain_converges_with_first_order() {
 /// secants.
 fn drained(law: &CamClay, state: &CamClayState, lateral: f64, step: f64) -> (f64, CamClayState) {
     let at = |side: f64| {
-        let after = law.update(&stretches([-step, side, side]), 1.0, state).1;
+        let after = law.response(&stretches([-step, side, side]), 1.0, state).1;
         let [p, q, _] = stresses(law, &after);
         (p - q / 3.0 - lateral, after)
     };
@@ -185,13 +185,13 @@ fn shear_ends_in_the_critical_state_of_any_shape() {
             let mut increment = Matrix3::identity();
             increment[(0, 1)] = 2e-3;
             for _ in 0..1000 {
-                state = law.update(&increment, 1.0, &state).1;
+                state = law.response(&increment, 1.0, &state).1;
             }
             let [p, q, pc] = stresses(&law, &state);
             for ratio in [p / (0.5 * gamma * pc), q / (RATIO * p)] {
                 assert!((ratio - 1.0).abs() < 1e-3, "{alpha} {gamma}: {ratio}");
             }
-            let next = law.update(&increment, 1.0, &state).1;
+            let next = law.response(&increment, 1.0, &state).1;
             assert!((next.plastic_volume - state.plastic_volume).abs() < 1e-6);
         }
     }
@@ -239,7 +239,7 @@ fn one_dimensional_compression_converges_to_its_rates() {
         let mut state = law.initial_state();
         for _ in 0..steps {
             let increment = stretches([-end / f64::from(steps), 0.0, 0.0]);
-            state = law.update(&increment, 1.0, &state).1;
+            state = law.response(&increment, 1.0, &state).1;
         }
         let found = stresses(&law, &state);
         [0, 1, 2].map(|i| found[i] / exact[i] - 1.0)

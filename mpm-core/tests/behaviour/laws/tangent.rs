@@ -20,8 +20,8 @@ fn condition(f: &Matrix3<f64>) -> f64 {
 /// it, and as rounding of the stress, in units of `scale` (Pa), allows at the smallest step. The stress beside
 /// it has the bits of the update.
 fn tangent_is_the_slope<M: Law>(law: &M, delta_f: &Matrix3<f64>, state: &M::State, scale: f64) {
-    let tangent = law.tangent(delta_f, DT, state);
-    let stress = |f: &Matrix3<f64>| law.update(f, DT, state).0;
+    let tangent = super::tangent(law, delta_f, DT, state);
+    let stress = |f: &Matrix3<f64>| law.response(f, DT, state).0;
     let slope = |k: usize| Matrix3::from_fn(|i, j| tangent.get(i, j).slope[k]);
     for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)] {
         assert_eq!(tangent.get(i, j).value, stress(delta_f).get(i, j));
@@ -146,7 +146,7 @@ fn hypoelastic_ground() -> [HypoelasticJ2; 3] {
 /// Tangent of ground that flows in the second deformation; whether it flows far enough to tell.
 fn plastic<M: Law>(law: &M, first: &Matrix3<f64>, second: &Matrix3<f64>) -> bool {
     let before = deform(law, first).1;
-    let after = law.update(second, DT, &before).1;
+    let after = law.response(second, DT, &before).1;
     let flow = law.plastic_strain(&after) - law.plastic_strain(&before);
     // Far enough from the yield surface for differences.
     if flow > 4.0 * STEP {
