@@ -20,7 +20,7 @@ pub struct Size {
 }
 
 impl Size {
-    /// A scene of so many times as much.
+    /// A scene `factor` times as large.
     pub(crate) fn times(self, factor: f64) -> Self {
         Self {
             particles: self.particles * factor,

@@ -11,7 +11,7 @@ use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
 use mpm_solvers::scheme::{BasisName, RemedyName, Scheme};
-use mpm_solvers::{Solvable, solver};
+use mpm_solvers::solver;
 use std::f64::consts::TAU;
 
 /// Cells on every side of the block.
@@ -49,10 +49,7 @@ impl<const D: usize> Block<D> {
     }
 }
 
-impl<const D: usize> Block<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Block<D> {
     fn positions(&self) -> Vec<[f64; D]> {
         let n = 2 * self.cells;
         let place = |k: usize| (MARGIN as f64 + (k as f64 + 0.5) / 2.0) * H;
@@ -118,10 +115,7 @@ pub(super) fn turns(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Erro
 }
 
 /// Blocks of 10⁴ to 10⁶·⁵ particles, half a decade apart, on one thread.
-pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error>
-where
-    Scene<D>: Solvable<D>,
-{
+pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error> {
     let cells: [usize; 6] = match D {
         2 => [50, 89, 158, 281, 500, 889],
         _ => [11, 16, 23, 34, 50, 73],

@@ -11,69 +11,68 @@ use mpm_core::implicit::{self, Interpolation, OfHats, Serendipity};
 use mpm_core::poro::{self, Water};
 use mpm_core::{Error, Lattice, Scene, Simulation};
 use scheme::{BasisName, Explicit, RemedyName, Scheme, TransferName};
+use std::any::Any;
 
 type Built<const D: usize> = Result<Box<dyn Simulation<D>>, Error>;
 
 /// A scene with the solvers that are compiled for its dimension, one for every basis and transfer.
-pub trait Solvable<const D: usize>: Sized {
-    /// An explicit solver by `scheme`; the transfer of the settings stands for `flip`.
-    ///
-    /// # Errors
-    /// The solver refuses the scene; the scheme is of another kind; a transfer other than `flip` beside a blend with
-    /// PIC, which it would not see.
+trait Solvable<const D: usize>: Sized {
+    /// An explicit solver; the transfer of the settings stands for `flip`.
     fn explicit(self, scheme: Scheme, settings: Settings<D>) -> Built<D>;
 
-    /// An implicit solver by `scheme`, whose remedy stands for that of the settings; the rule of time is theirs.
-    ///
-    /// # Errors
-    /// The solver refuses the scene; the scheme is of another kind, or its basis not of this dimension.
+    /// An implicit solver. The remedy of the scheme stands for that of the settings; the rule of time is theirs.
     fn implicit(self, scheme: Scheme, settings: implicit::Settings) -> Built<D>;
 
-    /// A solver of a body whose pores are full of `water`, on the functions of `scheme`; the space of the pressure is that
-    /// of the settings.
-    ///
-    /// # Errors
-    /// The solver refuses the scene; the scheme is of another kind, or its functions are neither hats nor means of hats.
+    /// A solver of a body whose pores are full of water; the space of the pressure is that of the settings.
     fn poro(self, scheme: Scheme, water: Water<D>, settings: poro::Settings) -> Built<D>;
+}
+
+/// `value` as the type that it has.
+fn cast<A: 'static, B: 'static>(value: A) -> Result<B, Error> {
+    let value: Box<dyn Any> = Box::new(value);
+    value.downcast().map(|value| *value).map_err(|_| other_solver("one in 1, 2 or 3 dimensions"))
+}
+
+/// A solver of a scene in its dimension, one of the three that are compiled.
+macro_rules! in_its_dimension {
+    ($scene:expr, $d:ident, |$own:ident| $build:expr) => {
+        match $d {
+            1 => cast($scene).and_then(|$own: Scene<1>| $build).and_then(cast),
+            2 => cast($scene).and_then(|$own: Scene<2>| $build).and_then(cast),
+            _ => cast($scene).and_then(|$own: Scene<3>| $build).and_then(cast),
+        }
+    };
 }
 
 /// A solver of `scene` by `scheme`.
 ///
 /// # Errors
-/// As [`Solvable::explicit`].
-pub fn solver<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: Settings<D>) -> Built<D>
-where
-    Scene<D>: Solvable<D>,
-{
-    trial::built(scene, |scene, _| scene.explicit(scheme, settings))
+/// The solver refuses the scene; the scheme is of another kind; a transfer other than `flip` beside a blend with PIC,
+/// which it would not see, or outside the plane.
+pub fn solver<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: Settings<D>) -> Built<D> {
+    trial::built(scene, |scene, _| in_its_dimension!(scene, D, |own| own.explicit(scheme, cast(settings)?)))
 }
 
 /// An implicit solver of `scene` by `scheme`.
 ///
 /// # Errors
-/// As [`Solvable::implicit`].
-pub fn implicit<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: implicit::Settings) -> Built<D>
-where
-    Scene<D>: Solvable<D>,
-{
-    trial::built(scene, |scene, _| scene.implicit(scheme, settings))
+/// The solver refuses the scene; the scheme is of another kind, or its basis not of this dimension.
+pub fn implicit<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: implicit::Settings) -> Built<D> {
+    trial::built(scene, |scene, _| in_its_dimension!(scene, D, |own| own.implicit(scheme, settings)))
 }
 
 /// A solver of solid and water.
 ///
 /// # Errors
-/// As [`Solvable::poro`].
-pub fn poro<const D: usize>(scheme: Scheme, scene: Scene<D>, water: Water<D>, settings: poro::Settings) -> Built<D>
-where
-    Scene<D>: Solvable<D>,
-{
+/// The solver refuses the scene; the scheme is of another kind, or its functions are neither hats nor means of hats.
+pub fn poro<const D: usize>(scheme: Scheme, scene: Scene<D>, water: Water<D>, settings: poro::Settings) -> Built<D> {
     let grid = scene.grid;
-    trial::built(scene, |scene, frame| match frame {
-        None => scene.poro(scheme, water, settings),
-        Some(frame) => {
-            let settings = settings.in_units(frame.scale(1, 0));
-            scene.poro(scheme, water.seen_from(frame, &grid), settings)
-        }
+    trial::built(scene, |scene, frame| {
+        let (water, settings) = match frame {
+            None => (water, settings),
+            Some(frame) => (water.seen_from(frame, &grid), settings.in_units(frame.scale(1, 0))),
+        };
+        in_its_dimension!(scene, D, |own| own.poro(scheme, cast(water)?, settings))
     })
 }
 

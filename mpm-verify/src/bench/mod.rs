@@ -7,7 +7,7 @@ pub use mpm_bench::{GROUPS, Options, Peers};
 use crate::case::find_level;
 use crate::cases;
 use crate::error::Error;
-use crate::files::{make_folder, read_versioned, write_json};
+use crate::files::{make_folder, read_versioned, write_dense_json};
 use crate::job::Job;
 use crate::parameter::Parameters;
 use crate::record::{Machine, Version};
@@ -56,7 +56,7 @@ pub fn measure(options: &Options, out: &Path, progress: &dyn Fn(f64)) -> Result<
         version: Version::current(),
         measured: measured.map_err(|e| Error::Input(e.to_string()))?,
     };
-    write_json(&out.join("bench.json"), &bench)?;
+    write_dense_json(&out.join("bench.json"), &bench)?;
     summary::write(&bench, out)
 }
 

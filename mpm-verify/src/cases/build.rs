@@ -32,10 +32,7 @@ impl<P: ParameterSet> Setup<P> {
         scene: Scene<D>,
         dt: f64,
         damping: f64,
-    ) -> Result<Box<dyn Simulation<D>>, Fault>
-    where
-        Scene<D>: Solvable<D>,
-    {
+    ) -> Result<Box<dyn Simulation<D>>, Fault> {
         let settings = self.settings(dt, damping)?;
         let share = self.values.number(common::FLIP);
         let settings = if share.is_nan() { settings } else { settings.transfer(Flip::new(share)?) };
@@ -48,10 +45,7 @@ impl<P: ParameterSet> Setup<P> {
         scene: Scene<D>,
         dt: f64,
         damping: f64,
-    ) -> Result<Box<dyn Simulation<D>>, Fault>
-    where
-        Scene<D>: Solvable<D>,
-    {
+    ) -> Result<Box<dyn Simulation<D>>, Fault> {
         match self.implicit_settings(dt) {
             Some(settings) => mpm_solvers::implicit(self.scheme, scene, settings),
             None => self.explicit(scene, dt, damping),

@@ -236,10 +236,7 @@ impl Moving {
     }
 }
 
-impl<const D: usize> Problem<D> for Moving
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Moving {
     type Parameters = Moved;
     type Seen = Rows;
 

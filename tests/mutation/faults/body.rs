@@ -126,8 +126,8 @@ pub(crate) const BODY: [Fault; 21] = [
     Fault {
         name: "sorting halves the mass of the first particle",
         file: "particles.rs",
-        sound: "permute(&mut self.mass, order)",
-        broken: "{ permute(&mut self.mass, order); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
+        sound: "permute(&mut self.mass, order, 1)",
+        broken: "{ permute(&mut self.mass, order, 1); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
         seen_by: &[(DAM, "mass")],
     },
     Fault {

@@ -70,15 +70,12 @@ impl Setup<Cantilever> {
     /// The simulation at its start.
     pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
-        match self.law {
-            LawName::Hencky => self.with(Hencky::new(young, ratio)?),
-            LawName::NeoHookean => self.with(NeoHookean::new(young, ratio)?),
-            LawName::Jaumann => self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Split)?),
-            LawName::JaumannLinear => self.with(Hypoelastic::new(young, ratio, JaumannUpdate::Linear)?),
-        }
-    }
-
-    fn with(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let law: SharedLaw = match self.law {
+            LawName::Hencky => Hencky::new(young, ratio)?.into(),
+            LawName::NeoHookean => NeoHookean::new(young, ratio)?.into(),
+            LawName::Jaumann => Hypoelastic::new(young, ratio, JaumannUpdate::Split)?.into(),
+            LawName::JaumannLinear => Hypoelastic::new(young, ratio, JaumannUpdate::Linear)?.into(),
+        };
         let (h, element) = (self.cell(), self.element());
         let per_cell = self.points_per_direction as f64;
         let volume = element[0] * element[1] / (per_cell * per_cell);

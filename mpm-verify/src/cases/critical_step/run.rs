@@ -62,10 +62,7 @@ pub(super) struct Trials<const D: usize> {
     speed: f64,
 }
 
-impl<const D: usize> Trials<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Trials<D> {
     fn is_cut(&self) -> bool {
         self.setup.layout == Layout::Cut
     }
@@ -164,10 +161,7 @@ fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
     f
 }
 
-impl<const D: usize> Problem<D> for Trials<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Trials<D> {
     type Parameters = Step;
     type Seen = Grown;
 

@@ -241,15 +241,11 @@ impl Ground {
     /// The simulation of a stage at its start.
     pub(super) fn simulation(&self, stage: Stage) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
         let setup = &self.setup;
-        if setup.law == LawName::Hencky {
-            return self.solved(stage, setup.hencky()?);
-        }
-        let law =
-            HypoelasticJ2::new(setup.young_modulus, setup.poisson_ratio, JaumannUpdate::Split, setup.strength()?)?;
-        self.solved(stage, law)
-    }
-
-    fn solved(&self, stage: Stage, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+        let (young, ratio) = (setup.young_modulus, setup.poisson_ratio);
+        let law: SharedLaw = match setup.law == LawName::Hencky {
+            true => setup.hencky()?.into(),
+            false => HypoelasticJ2::new(young, ratio, JaumannUpdate::Split, setup.strength()?)?.into(),
+        };
         let body = Body::new(law, self.particles_of(stage)?)?;
         let rises = stage == Stage::Gravity;
         let gravity = move |time: f64| {

@@ -4,7 +4,6 @@ use super::look::{Series as Rows, State};
 use super::*;
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, KINETIC, Measured, POTENTIAL, Part, START_X, START_Y};
 use crate::sampled::SHORT;
-use mpm_solvers::Solvable;
 
 const TIME: Asked =
     Asked::series("time", "s", "time since the reduction; the row at 0 is the ground at rest before it");
@@ -21,10 +20,7 @@ const REST_STRESS: Asked =
 /// Time (s) from the reduction within which a row is that of the ground at rest.
 const AT_ONCE: f64 = 0.005;
 
-pub(in crate::cases) fn foreign<const D: usize>() -> Foreign
-where
-    Scene<D>: Solvable<D>,
-{
+pub(in crate::cases) fn foreign<const D: usize>() -> Foreign {
     let groups = vec![
         Group::new(&[START_X, START_Y, REST_STRESS], [OVERBURDEN_ERROR], |given| {
             let (references, stress) = (given.points([&START_X, &START_Y]), given.column(&REST_STRESS));

@@ -105,10 +105,7 @@ pub(super) struct Slide<const D: usize> {
     reference: Vec<[f64; 2]>,
 }
 
-impl<const D: usize> Slide<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Slide<D> {
     /// Ends the gravity stage.
     fn release(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
         self.measure_rest(seen, phase.run.as_mut());
@@ -277,10 +274,7 @@ fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
     columns.field("plastic_strain", "-", Field::PlasticStrain).field("mean_stress", "Pa", Field::MeanStress)
 }
 
-impl<const D: usize> Problem<D> for Slide<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Slide<D> {
     type Parameters = Landslide;
     type Seen = Seen;
 

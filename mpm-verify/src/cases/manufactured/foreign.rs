@@ -24,10 +24,7 @@ const ROWS_PER_PERIOD: f64 = 10.0;
 const ROWS: f64 = 30.0;
 
 /// The motion by the steps of a code, and its rows, after the exact start if that is not among them.
-fn rows<const D: usize, K: Known>(given: &Given) -> Result<(Motion<D, K>, Vec<Sample>), Error>
-where
-    Motion<D, K>: Problem<D, Parameters = Own<K>>,
-{
+fn rows<const D: usize, K: Known>(given: &Given) -> Result<(Motion<D, K>, Vec<Sample>), Error> {
     let mut motion = Motion::new(given.setup()?)?;
     if given.discretisation.dt.is_finite() {
         motion.timing.dt = given.discretisation.dt;

@@ -83,10 +83,7 @@ impl<K: Known> ParameterSet for Own<K> {
 }
 
 /// A case of this motion in `D` dimensions, by name, title and description, with the errors and headlines that serve most.
-pub(super) fn known_case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case
-where
-    Motion<D, K>: Problem<D, Parameters = Own<K>>,
-{
+pub(super) fn known_case<const D: usize, K: Known>([name, title, description]: [&'static str; 3]) -> Case {
     Case::of::<D, Motion<D, K>>(name, title, METRICS)
         .described(description)
         .wanted("displacement", "rms error of u at the end", "error-bound")

@@ -232,10 +232,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
     }
 }
 
-impl<const D: usize, K: Known> Problem<D> for Motion<D, K>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
     type Parameters = Own<K>;
     type Seen = Seen;
 

@@ -93,24 +93,18 @@ impl<K: Known> Scenario<K> {
         self.setup.discretisation(D, ppc as usize, dt)
     }
 
-    fn medium(&self) -> Medium {
+    fn medium(&self) -> SharedLaw {
         let Material { mu, lambda, .. } = self.solution.material();
         if K::FLUID {
-            Medium::Fluid(NewtonianFluid { bulk_modulus: lambda, viscosity: mu })
+            NewtonianFluid { bulk_modulus: lambda, viscosity: mu }.into()
         } else {
-            Medium::Solid(NeoHookean { mu, lambda })
+            NeoHookean { mu, lambda }.into()
         }
     }
 
     /// The simulation at its start, with steps of `dt` (s).
-    pub(super) fn begin<const D: usize>(&self, dt: f64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
-    where
-        Scene<D>: Solvable<D>,
-    {
-        match self.medium() {
-            Medium::Solid(law) => solved(&self.setup, self.scene(law, dt)?, dt),
-            Medium::Fluid(law) => solved(&self.setup, self.scene(law, dt)?, dt),
-        }
+    pub(super) fn begin<const D: usize>(&self, dt: f64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        solved(&self.setup, self.scene(self.medium(), dt)?, dt)
     }
 
     /// The body at its start, with what holds and drives it.
@@ -206,10 +200,7 @@ fn solved<const D: usize, P: ParameterSet>(
     setup: &Setup<P>,
     scene: Scene<D>,
     dt: f64,
-) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
-where
-    Scene<D>: Solvable<D>,
-{
+) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
     if let Some(settings) = setup.implicit_settings(dt) {
         return mpm_solvers::implicit(setup.scheme, scene, settings);
     }
@@ -247,19 +238,4 @@ fn components<const D: usize>(v: &Vector3<f64>) -> [f64; D] {
 /// Cells of size `h` over a length, which they fill.
 fn cells([lo, hi]: [f64; 2], h: f64) -> usize {
     ((hi - lo) / h).round() as usize
-}
-
-/// The law of the body.
-enum Medium {
-    Solid(NeoHookean),
-    Fluid(NewtonianFluid),
-}
-
-impl Medium {
-    fn wave_speed(&self, density: f64) -> f64 {
-        match self {
-            Self::Solid(law) => law.wave_speed(density),
-            Self::Fluid(law) => law.wave_speed(density),
-        }
-    }
 }

@@ -5,7 +5,6 @@ use crate::cases::poro::matrix_entries;
 use crate::exact::poro::{Moment, SolidAndWater};
 use mpm_core::poro::{Gravity, Predictor, Settings, Tangent};
 use mpm_core::stage::BodyForce;
-use mpm_solvers::Solvable;
 use std::array::from_fn;
 
 /// Densities of water and grains (kg/m³).
@@ -109,10 +108,7 @@ impl Moving {
     }
 }
 
-impl<const D: usize> Problem<D> for Moving
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Moving {
     type Parameters = Motion;
     type Seen = ();
 

@@ -79,10 +79,7 @@ impl<const D: usize> Slow<D> {
     }
 }
 
-impl<const D: usize> Problem<D> for Slow<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Slow<D> {
     type Parameters = Own<SlowVortex>;
     type Seen = u64;
 

@@ -105,10 +105,7 @@ struct Found {
 }
 
 /// Builds every phase once, so that what is wrong in the last one is said before the first.
-fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error>
-where
-    Scene<D>: Solvable<D>,
-{
+fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error> {
     let setup = Setup::<D>::new(source, form)?;
     let (mut mass, mut size) = (0.0, setup.size);
     for phase in &setup.phases {
@@ -125,10 +122,7 @@ where
     Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height, size })
 }
 
-fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error>
-where
-    Scene<D>: Solvable<D>,
-{
+fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error> {
     let made = Setup::<D>::new(source, source.form()?)?;
     let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
     Ok(Box::new(Driver::new(course)?))

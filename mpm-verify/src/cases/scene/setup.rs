@@ -199,10 +199,7 @@ impl<const D: usize> Setup<D> {
     }
 
     /// The simulation of a phase at its start.
-    pub(super) fn solve(&self, phase: &Phase) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
-    where
-        Scene<D>: Solvable<D>,
-    {
+    pub(super) fn solve(&self, phase: &Phase) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
         let scene = self.scene(phase)?;
         match self.scheme {
             Scheme::Explicit(_) => mpm_solvers::solver(self.scheme, scene, self.explicit(phase)?),

@@ -57,10 +57,7 @@ pub(super) struct Course<const D: usize> {
     columns: Vec<&'static str>,
 }
 
-impl<const D: usize> Course<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Course<D> {
     fn phase(&self, seen: &Seen) -> &Phase {
         &self.setup.phases[seen.phase.min(self.setup.phases.len() - 1)]
     }
@@ -136,10 +133,7 @@ fn most_moved<const D: usize>(run: &dyn Simulation<D>) -> f64 {
     squares.fold(0.0, f64::max).sqrt()
 }
 
-impl<const D: usize> Problem<D> for Course<D>
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Course<D> {
     type Parameters = Made<D>;
     type Seen = Seen;
 

@@ -1,6 +1,6 @@
 //! Size of a scene from its own numbers, before anything is built.
 
-use super::fault::{Line, Source};
+use super::fault::Source;
 use super::form::{BodyForm, Ends, ShapeForm};
 use super::shape::{MOST, too_many};
 use crate::cases::prelude::*;
@@ -43,7 +43,7 @@ pub(super) fn weigh<const D: usize>(
     for shape in &body.shapes {
         let count = measure(shape.get_ref(), D) / spacing.powi(D as i32);
         if count > MOST as f64 {
-            return Err(too_many::<ShapeForm>(source, shape as &Line<_>));
+            return Err(too_many(source, shape));
         }
         particles += count;
     }

@@ -72,19 +72,6 @@ impl Bar {
         })
     }
 
-    /// A simulation of the bar with the law `law`.
-    fn with(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        let h = self.setup.h;
-        let size = self.setup.pitch();
-        let cells = (LENGTH / h).round() as usize;
-        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
-        let count = (LENGTH / size).round() as usize;
-        let mut particles = self.setup.particles_at(by_rows([count], size), size, DENSITY)?;
-        particles.velocity.fill([-self.speed]);
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
-        self.setup.explicit(scene, self.dt, 0.0)
-    }
-
     /// Stress (Pa) and velocity (m/s) of the particles behind the front, at the end.
     fn behind(&self, run: &mut dyn Simulation<1>) -> Vec<[f64; 2]> {
         let stress = run.force_stress();
@@ -123,10 +110,19 @@ impl Problem<1> for Bar {
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
-        match self.setup.is_viscous() {
-            true => self.with(Viscous::new(self.law, DENSITY, self.setup.h, self.setup.viscosity())?),
-            false => self.with(self.law),
-        }
+        let law: SharedLaw = match self.setup.is_viscous() {
+            true => Viscous::new(self.law, DENSITY, self.setup.h, self.setup.viscosity())?.into(),
+            false => self.law.into(),
+        };
+        let h = self.setup.h;
+        let size = self.setup.pitch();
+        let cells = (LENGTH / h).round() as usize;
+        let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
+        let count = (LENGTH / size).round() as usize;
+        let mut particles = self.setup.particles_at(by_rows([count], size), size, DENSITY)?;
+        particles.velocity.fill([-self.speed]);
+        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
+        self.setup.explicit(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {

@@ -180,10 +180,7 @@ impl Stretching {
     }
 }
 
-impl<const D: usize> Problem<D> for Stretching
-where
-    Scene<D>: Solvable<D>,
-{
+impl<const D: usize> Problem<D> for Stretching {
     type Parameters = Stretch;
     type Seen = Observed;
 

@@ -6,7 +6,6 @@ use mpm_core::Error::{NoConvergence, Singular};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
 use mpm_core::stage::RigidNodes;
-use mpm_solvers::Solvable;
 use std::array::from_fn;
 
 /// Side of the soil (m).
@@ -166,11 +165,9 @@ impl Setup<Strip> {
         places.map(move |(place, p)| known.map_or(f64::NAN, |s| p - s.pressure(place[0], place[D - 1])))
     }
 
-    /// The simulation at its start, of soil of the law `law`.
-    fn ground<const D: usize>(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>
-    where
-        Scene<D>: Solvable<D>,
-    {
+    /// The simulation at its start.
+    fn ground<const D: usize>(&self) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        let law: SharedLaw = if self.is_plastic() { self.clay()?.into() } else { self.elasticity()?.into() };
         let (h, up) = (self.h, D - 1);
         let cells = |length: f64| (length / h).round() as usize;
         let mut axes = [Axis::walls(0.0, cells(SIDE)); D];
@@ -218,26 +215,6 @@ impl Setup<Strip> {
     }
 }
 
-/// The ground in `D` dimensions: of any law in the plane, of elastic soil alone in space.
-pub(super) trait Ground<const D: usize> {
-    fn start(&self) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
-}
-
-impl Ground<2> for Setup<Strip> {
-    fn start(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
-        match self.law {
-            Soil::CamClay => self.ground(self.clay()?),
-            Soil::Elastic => self.ground(self.elasticity()?),
-        }
-    }
-}
-
-impl Ground<3> for Setup<Strip> {
-    fn start(&self) -> Result<Box<dyn Simulation<3>>, mpm_core::Error> {
-        self.ground(self.elasticity()?)
-    }
-}
-
 /// Observations of the strip.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
@@ -268,10 +245,7 @@ impl Seen {
     }
 }
 
-impl<const D: usize> Problem<D> for Setup<Strip>
-where
-    Self: Ground<D>,
-{
+impl<const D: usize> Problem<D> for Setup<Strip> {
     type Parameters = Strip;
     type Seen = Seen;
 
@@ -297,7 +271,7 @@ where
     }
 
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
-        self.start()
+        self.ground()
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
