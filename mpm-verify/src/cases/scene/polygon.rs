@@ -106,7 +106,7 @@ mod tests {
     fn star(count: usize, [least, most]: [f64; 2]) -> Vec<Point> {
         let corner = |k: usize| {
             let (angle, radius) =
-                (std::f64::consts::PI * k as f64 / count as f64, if k % 2 == 0 { most } else { least });
+                (std::f64::consts::PI * k as f64 / count as f64, if k.is_multiple_of(2) { most } else { least });
             [radius * angle.cos(), radius * angle.sin()]
         };
         (0..2 * count).map(corner).collect()
