@@ -54,7 +54,7 @@ impl<const D: usize> Body<D> {
         densities.fold(f64::INFINITY, f64::min)
     }
 
-    /// Greatest [`Law::wave_modulus`] of its particles (Pa).
+    /// Greatest [`AnyLaw::wave_modulus`] of its particles (Pa).
     pub fn wave_modulus(&self) -> f64 {
         let p = &self.particles;
         let columns = p.jacobian.iter().zip(&p.stress).enumerate();
