@@ -31,7 +31,7 @@ use std::fmt::Debug;
 
 /// State of a particle: the numbers that its law needs, and no more.
 pub trait State: Copy + Send + Sync + PartialEq + Debug {
-    /// How many.
+    /// How many: one or more.
     const NUMBERS: usize;
 
     /// The same made of numbers `T`.

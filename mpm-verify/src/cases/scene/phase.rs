@@ -15,8 +15,6 @@ const WHOLE: f64 = 1e-3;
 pub(super) struct Phase {
     pub(super) name: String,
     pub(super) law: SharedLaw,
-    /// Whether the law has no consistent tangent but the exact one.
-    pub(super) clay: bool,
     /// Undrained shear strength at the start (Pa), of a law that has one.
     pub(super) strength: Option<f64>,
     pub(super) steps: u64,
@@ -126,7 +124,6 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
         all.push(Phase {
             name: given.name.0.clone(),
             law,
-            clay: matches!(kind, LawForm::CamClay { .. }),
             strength: shear_strength(kind),
             steps: steps as u64,
             steps_per_row: steps_per_row as u64,

@@ -335,7 +335,7 @@ impl<const D: usize> Setup<D> {
     pub(super) fn poro(&self, phase: &Phase) -> poro::Settings {
         let form = self.form.solver.get_ref();
         let mut settings = poro::Settings::new(phase.dt);
-        if phase.clay {
+        if !phase.law.conservative() {
             settings = settings.tangent(poro::Tangent::Consistent);
         }
         poro::Settings {
