@@ -15,7 +15,7 @@ use mpm_core::number::{EIGHT, Eight};
 use mpm_core::order::stencil_order;
 use mpm_core::projection::{Average, Averaging, Space};
 use mpm_core::space::embed;
-use mpm_core::{Axis, Basis, Body, Grid, Lattice, Particles, SymmetricTensor};
+use mpm_core::{Axis, Basis, Bodies, Grid, Lattice, Particles, SymmetricTensor};
 use nalgebra::{Matrix2, SMatrix};
 use std::hint::black_box;
 
@@ -65,7 +65,7 @@ fn transfers<const S: usize, B: Basis<S>, T: Transfer<2>>(c: &mut Criterion, nam
         });
     });
     group.bench_function("prepare", |b| {
-        b.iter(|| black_box(transfer.prepare(&lattice, &p, &slabs, &nodes, &[])));
+        b.iter(|| black_box(transfer.prepare(&lattice, &p, std::slice::from_ref(&slabs), &nodes, &[])));
     });
     let mut velocity = p.velocity.clone();
     let mut affine = (!p.affine.is_empty()).then_some([SMatrix::zeros(); EIGHT]);
@@ -136,7 +136,7 @@ fn law<M: Law + Copy + 'static>(c: &mut Criterion, name: &str, law: &M, delta_f:
         });
     });
     let particles = Particles::new(vec![[0.0; 2]; n], 1.0, 1.0, [0.5; 2]);
-    if let Ok(mut body) = particles.and_then(|particles| Body::new(shared(*law), particles)) {
+    if let Ok(mut body) = particles.and_then(|particles| Bodies::new(shared(*law), particles)) {
         body.particles.delta_f.fill(*delta_f);
         group.bench_function(format!("{name}, side by side"), |b| b.iter(|| body.update_stress(1e-3)));
     }

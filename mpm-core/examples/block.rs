@@ -8,7 +8,7 @@ use mpm_core::explicit::remedy::{Fbar, Form, Standard};
 use mpm_core::explicit::{Remedy, Settings, Solver, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
-use mpm_core::{Axis, Body, Error, Field, Grid, Particles, Scene, Simulation};
+use mpm_core::{Axis, Bodies, Error, Field, Grid, Particles, Scene, Simulation};
 use std::io::{Write, stdout};
 
 const CELL: f64 = 0.125;
@@ -32,8 +32,9 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
     let grid = Grid::new(CELL, [Axis::walls(0.0, 24), Axis::walls(0.0, 10)])?;
     let floor = Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed };
     let dt = courant_time_step(0.3, CELL, law.wave_speed(DENSITY));
-    let scene =
-        Scene::new(grid, Body::new(law, particles)?).load(BodyForce(Box::new(|_, _| [0.0, -GRAVITY]))).constrain(floor);
+    let scene = Scene::new(grid, Bodies::new(law, particles)?)
+        .load(BodyForce(Box::new(|_, _| [0.0, -GRAVITY])))
+        .constrain(floor);
     let settings = Settings::new(dt).remedy(remedy).filter_forces(LocalDamping::new(0.1)?);
 
     // Three functions of a quadratic spline are non-zero at a point.

@@ -17,8 +17,9 @@ pub struct Ledger {
     pub(crate) residual: Residual,
     /// Convergence of the last step, of a solver with Newton's method.
     pub(crate) convergence: Option<Convergence>,
-    /// Reactions of the constraints, in the scene's order.
+    /// Reactions of the constraints, in the scene's order, and of the bodies on what they touch.
     pub(crate) reactions: Vec<Reaction>,
+    pub(crate) touches: Vec<Reaction>,
     pub(crate) work: Work,
     /// Wall time, which a checkpoint does not keep.
     #[serde(skip)]
@@ -27,9 +28,10 @@ pub struct Ledger {
 
 impl Ledger {
     /// Ledger of a run at time zero.
-    pub(crate) fn new(particles: usize, nodes: usize, constraints: usize) -> Self {
+    pub(crate) fn new([particles, nodes]: [usize; 2], constraints: usize, bodies: usize) -> Self {
         Self {
             reactions: vec![Reaction::default(); constraints],
+            touches: vec![Reaction::default(); bodies],
             work: Work { particles: particles as u64, nodes: nodes as u64, ..Work::default() },
             ..Self::default()
         }
@@ -53,6 +55,7 @@ impl Ledger {
     pub(crate) fn on<const D: usize>(&self, part: Part, contacts: &[RigidContact<D>]) -> Reaction {
         let found = match part {
             Part::Constraint(place) => self.reactions.get(place).copied(),
+            Part::Body(place) => self.touches.get(place).copied(),
             Part::Contact(place) => contacts.get(place).map(RigidContact::reaction),
         };
         found.unwrap_or(Reaction::NONE)
@@ -72,6 +75,7 @@ impl Ledger {
     pub(crate) fn check(&self, saved: &Self) -> Result<(), MemoryError> {
         let (constraints, nodes) = (self.reactions.len(), self.work.nodes as usize);
         MemoryError::unless_equal("constraints", saved.reactions.len(), constraints)?;
+        MemoryError::unless_equal("bodies", saved.touches.len(), self.touches.len())?;
         MemoryError::unless_equal("nodes", saved.work.nodes as usize, nodes)
     }
 

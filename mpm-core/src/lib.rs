@@ -1,7 +1,7 @@
 //! Finite-strain material point method (MPM) with the F̄ family of locking remedies.
 //!
 //! The method is that of Zhao, Jiang & Choo, "Circumventing volumetric locking in explicit material point methods"
-//! (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], a [`Body`] and what acts on it; a
+//! (2023); equation numbers in this crate are theirs. A [`Scene`] is a [`Grid`], [`Bodies`] and what acts on it; a
 //! solver, behind [`Simulation`], moves it. There are three kinds: the [explicit](explicit::Solver) one, whose `step`
 //! is the algorithm, the [implicit](implicit::Solver) one, and that of [solid and water](poro::Solver). Shared parts:
 //!
@@ -31,7 +31,7 @@
 //! use mpm_core::explicit::{Settings, Solver, courant_time_step};
 //! use mpm_core::material::{Law, NeoHookean};
 //! use mpm_core::stage::{BodyForce, End, Wall, WallKind};
-//! use mpm_core::{Axis, Body, Error, Grid, Particles, Scene, Simulation};
+//! use mpm_core::{Axis, Bodies, Error, Grid, Particles, Scene, Simulation};
 //!
 //! fn main() -> Result<(), Error> {
 //!     let (cell, spacing, density) = (0.25, 0.125, 1000.0);
@@ -43,7 +43,7 @@
 //!     let law = NeoHookean::new(1e5, 0.499)?;
 //!     let dt = courant_time_step(0.3, cell, law.wave_speed(density));
 //!     let grid = Grid::new(cell, [Axis::walls(0.0, 12), Axis::walls(0.0, 6)])?;
-//!     let scene = Scene::new(grid, Body::new(law, particles)?)
+//!     let scene = Scene::new(grid, Bodies::new(law, particles)?)
 //!         .load(BodyForce(Box::new(|_, _| [0.0, -9.81])))
 //!         .constrain(Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed });
 //!     let settings = Settings::new(dt).remedy(Box::new(Fbar::new(Form::Consistent)));
@@ -65,7 +65,7 @@
 //! 2 (plane strain) or 3.
 
 pub mod basis;
-pub mod body;
+pub mod bodies;
 pub mod contact;
 pub mod eights;
 pub mod error;
@@ -97,7 +97,7 @@ pub mod tensor;
 pub mod work;
 
 pub use basis::Basis;
-pub use body::Body;
+pub use bodies::{Bodies, Body};
 pub use error::{Cause, Error, Fault};
 pub use frame::Frame;
 pub use grid::{Axis, Grid, Side};

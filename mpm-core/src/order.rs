@@ -1,4 +1,4 @@
-//! The order of the particles: by slab of cells, and in a slab by the first node of their stencils.
+//! The order of the particles of a body: by slab of cells, and in a slab by the first node of their stencils.
 //!
 //! Slabs are what threads share ([`crate::parallel`]). Particles of one stencil stand side by side, so that a
 //! kernel can fetch its nodes once for all of them.
@@ -8,13 +8,16 @@ use crate::lattice::Lattice;
 use crate::parallel::SLAB;
 use std::ops::Range;
 
+/// The particles of a body by slab of [`SLAB`] cells along the first axis, as ranges of places in the columns.
+pub type Slabs = Vec<Range<usize>>;
+
 /// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart,
 /// and the range of every slab of [`SLAB`] cells along the first axis.
 pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     positions: &[[f64; D]],
     half_size: &[f64; D],
-) -> (Vec<u32>, Vec<Range<usize>>) {
+) -> (Vec<u32>, Slabs) {
     let grid = &lattice.grid;
     let mut first_node = vec![0; positions.len()];
     lattice.for_each_first_node(positions, half_size, |p, first| first_node[p] = first);

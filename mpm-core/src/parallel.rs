@@ -150,6 +150,16 @@ pub fn for_each_chunk<P: Front, T: Send>(all: P, sums: &mut [T], visit: &(impl F
     });
 }
 
+/// [`scatter`] of one body after the other.
+pub fn scatter_all<T: Send>(
+    nodes: &mut [T],
+    plane: usize,
+    bodies: &[Vec<Range<usize>>],
+    kernel: impl Fn(Range<usize>, &mut [T], usize) + Sync,
+) {
+    bodies.iter().for_each(|slabs| scatter(nodes, plane, slabs, &kernel));
+}
+
 /// Scatters particles to `nodes`: `kernel(particles, nodes of the run, index of the run's first node)`
 /// for every slab. `slabs[k]` is the range of particles of slab `k`, `plane` the nodes in a plane.
 pub fn scatter<T: Send>(

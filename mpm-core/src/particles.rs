@@ -1,4 +1,4 @@
-//! The particles of a body, as columns.
+//! Particles, as columns.
 
 use crate::error::{Error, positive, require};
 use crate::frame::Frame;
@@ -7,8 +7,17 @@ use crate::parallel::{CHUNK, Rows, for_each_piece};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
-/// Columns of one body. All have one entry per particle, but `j_bar`, `acceleration`, `affine` and `external_force`,
+/// `$of!` of the names of all columns.
+macro_rules! columns {
+    ($of:ident) => {
+        $of!(id reference position velocity acceleration affine mass reference_volume volume jacobian j_bar stress
+            external_force delta_f increment)
+    };
+}
+
+/// Columns of the particles of all bodies. All have one entry per particle, but `j_bar`, `acceleration`, `affine` and `external_force`,
 /// which are empty in a run without a remedy, transfer or load that needs them.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(bound = "")]
@@ -104,7 +113,7 @@ impl<const D: usize> Particles<D> {
         self
     }
 
-    /// The same particles, before their first step, seen from `frame`; those of a [`Body`](crate::Body) get their
+    /// The same particles, before their first step, seen from `frame`; those of a [`Bodies`](crate::Bodies) get their
     /// stress and volume from it.
     #[must_use]
     pub fn seen_from(&self, frame: &Frame<D>) -> Self {
@@ -158,30 +167,22 @@ impl<const D: usize> Particles<D> {
 
     /// Kinetic energy Σ ½ m v² (J); that of affine parts is left out.
     pub fn kinetic_energy(&self) -> f64 {
+        self.kinetic_energy_of(0..self.len())
+    }
+
+    /// The same of the particles in a range.
+    pub fn kinetic_energy_of(&self, range: Range<usize>) -> f64 {
         let square = |v: &[f64; D]| v.iter().map(|v| v * v).sum::<f64>();
-        let pairs = self.mass.iter().zip(&self.velocity);
+        let pairs = self.mass[range.clone()].iter().zip(self.velocity.get(range).unwrap_or_default());
         pairs.map(|(m, v)| 0.5 * m * square(v)).sum()
     }
 
     /// The lengths of the columns, by name.
     fn lengths(&self) -> [(&'static str, usize); 15] {
-        [
-            ("id", self.id.len()),
-            ("reference", self.reference.len()),
-            ("position", self.position.len()),
-            ("velocity", self.velocity.len()),
-            ("acceleration", self.acceleration.len()),
-            ("affine", self.affine.len()),
-            ("mass", self.mass.len()),
-            ("reference_volume", self.reference_volume.len()),
-            ("volume", self.volume.len()),
-            ("jacobian", self.jacobian.len()),
-            ("j_bar", self.j_bar.len()),
-            ("stress", self.stress.len()),
-            ("external_force", self.external_force.len()),
-            ("delta_f", self.delta_f.len()),
-            ("increment", self.increment.len()),
-        ]
+        macro_rules! lengths {
+            ($($column:ident)*) => {[$((stringify!($column), self.$column.len())),*]};
+        }
+        columns!(lengths)
     }
 
     /// Checks that these could be the particles of `scene`, later: columns as long, the same identities.
@@ -238,21 +239,24 @@ impl<const D: usize> Particles<D> {
     /// Puts every column in the order `order`: entry `k` becomes the former entry `order[k]`. An order of some leaves
     /// the others out.
     pub fn permute(&mut self, order: &[u32]) {
-        permute(&mut self.id, order, 1);
-        permute(&mut self.reference, order, 1);
-        permute(&mut self.position, order, 1);
-        permute(&mut self.velocity, order, 1);
-        permute(&mut self.acceleration, order, 1);
-        permute(&mut self.affine, order, 1);
-        permute(&mut self.mass, order, 1);
-        permute(&mut self.reference_volume, order, 1);
-        permute(&mut self.volume, order, 1);
-        permute(&mut self.jacobian, order, 1);
-        permute(&mut self.j_bar, order, 1);
-        permute(&mut self.stress, order, 1);
-        permute(&mut self.external_force, order, 1);
-        permute(&mut self.delta_f, order, 1);
-        permute(&mut self.increment, order, 1);
+        macro_rules! permute_each {
+            ($($column:ident)*) => {$(permute(&mut self.$column, order, 1);)*};
+        }
+        columns!(permute_each);
+    }
+
+    /// Puts other particles behind these, seeded after them.
+    pub(crate) fn append(&mut self, mut others: Self) {
+        let count = self.len() as u32;
+        others.id.iter_mut().for_each(|id| *id += count);
+        if !(self.affine.is_empty() && others.affine.is_empty()) {
+            self.affine.resize(self.len(), SMatrix::zeros());
+            others.affine.resize(others.len(), SMatrix::zeros());
+        }
+        macro_rules! append_each {
+            ($($column:ident)*) => {$(self.$column.append(&mut others.$column);)*};
+        }
+        columns!(append_each);
     }
 }
 

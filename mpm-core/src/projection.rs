@@ -6,6 +6,7 @@
 mod patch;
 
 use crate::basis::{BSpline, Basis, WallTreatment};
+use crate::bodies::Body;
 use crate::grid::Grid;
 use crate::lattice::{Lattice, Weights};
 use crate::parallel::{CHUNK, NODE_CHUNK, for_each_piece, scatter};
@@ -34,7 +35,7 @@ pub enum Onto {
     Cells,
 }
 
-/// A space of functions that fields of the particles are averaged with.
+/// A space of functions that fields of the particles of a body are averaged with; those of others are left alone.
 pub trait Space<const D: usize>: Average<D> + Send {
     /// Marks weights and volumes as outdated: call it when particles have moved, changed volume or order.
     fn expire(&mut self);
@@ -43,7 +44,7 @@ pub trait Space<const D: usize>: Average<D> + Send {
     /// these `slabs`.
     fn find_reach(&mut self, particles: &Particles<D>, slabs: &[Range<usize>]);
 
-    /// Pairs of a particle and a function in an average, per particle.
+    /// Pairs of a particle and a function in an average.
     fn pairs(&self) -> u64;
 }
 
@@ -55,7 +56,8 @@ pub struct Averaging<const D: usize, const S: usize, B> {
     lattice: Lattice<D, S, B>,
     /// The nodes within the particles' reach.
     reach: Reach,
-    /// Ranges of particles by slab.
+    /// The place of its first particle in the columns, and ranges of its particles by slab, from there.
+    begin: usize,
     slabs: Vec<Range<usize>>,
     /// Weights of every particle.
     weights: Vec<Weights<D, S>>,
@@ -80,19 +82,24 @@ pub fn space<const D: usize, const S: usize, B: Basis<S>>(
     }
 }
 
-/// Π in a step: a space, and the counts of the work.
+/// Π in a step: spaces, and the counts of the work.
 pub struct Projection<'a, const D: usize> {
-    /// The space.
-    pub space: &'a mut dyn Space<D>,
+    /// The space of every body.
+    pub spaces: &'a mut [Box<dyn Space<D>>],
+    /// The bodies, of which some do not average.
+    pub each: &'a [Body],
     /// Counts applications, and pairs of particle and function.
     pub work: &'a mut Work,
 }
 
 impl<const D: usize> Average<D> for Projection<'_, D> {
     fn average(&mut self, particles: &Particles<D>, field: &mut [f64]) {
-        self.space.average(particles, field);
         self.work.projections += 1;
-        self.work.particle_node_pairs += self.space.pairs() * particles.len() as u64;
+        let averaging = self.spaces.iter_mut().zip(self.each).filter(|(_, body)| body.averages);
+        for (space, _) in averaging {
+            space.average(particles, field);
+            self.work.particle_node_pairs += space.pairs();
+        }
     }
 }
 
@@ -156,18 +163,23 @@ impl<const D: usize, const S: usize, B: Basis<S>> Averaging<D, S, B> {
     pub fn new(lattice: Lattice<D, S, B>) -> Self {
         let (reach, n) = (Reach::everything(&lattice), lattice.len() + ROW);
         let (weights, volumes, values) = (Vec::new(), vec![0.0; n], vec![0.0; n]);
-        Self { lattice, reach, slabs: Vec::new(), weights, volumes, values, current: false }
+        Self { lattice, reach, begin: 0, slabs: Vec::new(), weights, volumes, values, current: false }
+    }
+
+    /// Its particles, by place in the columns.
+    fn range(&self) -> Range<usize> {
+        self.begin..self.begin + self.slabs.last().map_or(0, |slab| slab.end)
     }
 
     /// Weights and nodal volumes of the particles.
     fn prepare(&mut self, particles: &Particles<D>) {
-        let lattice = &self.lattice;
-        self.weights.resize(particles.len(), Weights::default());
-        let columns = (&mut self.weights[..], &particles.position[..]);
-        for_each_piece(columns, particles.len(), CHUNK, &|_, (weights, x)| {
+        let (lattice, range) = (&self.lattice, self.range());
+        self.weights.resize(range.len(), Weights::default());
+        let columns = (&mut self.weights[..], &particles.position[range.clone()]);
+        for_each_piece(columns, range.len(), CHUNK, &|_, (weights, x)| {
             lattice.weights(x, &particles.half_size, weights);
         });
-        let volume = &particles.volume;
+        let volume = &particles.volume[range];
         scatter_values(lattice, &self.slabs, &self.weights, &self.reach, &mut self.volumes, |p| volume[p]);
         self.current = true;
     }
@@ -178,8 +190,10 @@ impl<const D: usize, const S: usize, B: Basis<S>> Average<D> for Averaging<D, S,
         if !self.current {
             self.prepare(particles);
         }
+        let range = self.range();
         let Self { lattice, reach, slabs, weights, volumes, values, .. } = self;
-        let (volume, given): (&[f64], &[f64]) = (&particles.volume, field);
+        let field = &mut field[range.clone()];
+        let (volume, given): (&[f64], &[f64]) = (&particles.volume[range], field);
         scatter_values(lattice, slabs, weights, reach, values, |p| volume[p] * given[p]);
         let n = volumes.len();
         for_each_piece((&mut values[..], &volumes[..]), n, NODE_CHUNK, &|begin, (values, volumes)| {
@@ -198,14 +212,16 @@ impl<const D: usize, const S: usize, B: Basis<S>> Space<D> for Averaging<D, S, B
     }
 
     fn find_reach(&mut self, particles: &Particles<D>, slabs: &[Range<usize>]) {
-        self.slabs = slabs.to_vec();
-        self.reach = Reach::of(&self.lattice, &particles.position, &particles.half_size);
+        self.begin = slabs.first().map_or(0, |slab| slab.start);
+        self.slabs.clear();
+        self.slabs.extend(slabs.iter().map(|slab| slab.start - self.begin..slab.end - self.begin));
+        self.reach = Reach::of(&self.lattice, [&particles.position[self.range()]], &particles.half_size);
         self.volumes.fill(0.0);
         self.values.fill(0.0);
         self.current = false;
     }
 
     fn pairs(&self) -> u64 {
-        2 * (S as u64).pow(D as u32)
+        2 * (S as u64).pow(D as u32) * self.range().len() as u64
     }
 }

@@ -22,9 +22,9 @@ impl Reach {
     /// Nodes within reach of particles at `positions` (m) with half sizes `half_size` (m), if each moves by a cell at
     /// most.
     #[must_use]
-    pub fn of<const D: usize, const S: usize, B: Basis<S>>(
+    pub fn of<'a, const D: usize, const S: usize, B: Basis<S>>(
         lattice: &Lattice<D, S, B>,
-        positions: &[[f64; D]],
+        positions: impl IntoIterator<Item = &'a [[f64; D]]>,
         half_size: &[f64; D],
     ) -> Self {
         if D == 1 || lattice.has_images() {
@@ -33,10 +33,12 @@ impl Reach {
         }
         let length = lattice.row_length();
         let mut rows: Vec<Places> = vec![0..0; lattice.len() / length];
-        lattice.for_each_first_node(positions, half_size, |_, first| {
-            let (row, place) = (first / length, first % length);
-            rows[row] = union(&rows[row], &(place..place + 1));
-        });
+        for positions in positions {
+            lattice.for_each_first_node(positions, half_size, |_, first| {
+                let (row, place) = (first / length, first % length);
+                rows[row] = union(&rows[row], &(place..place + 1));
+            });
+        }
         if D == 3 {
             // Runs over into the next plane, which costs a little and does no harm.
             rows = widened::<S>(&rows, 1);
@@ -131,7 +133,7 @@ mod tests {
         let end = grid.axes[0].hi(H);
         let at = |place: &[f64; 6]| std::array::from_fn(|a| -1.0 + CELLS as f64 * H * place[a]);
         let positions: Vec<[f64; D]> = places.iter().map(at).collect();
-        let reach = Reach::of(&lattice, &positions, &[0.25 * H; D]);
+        let reach = Reach::of(&lattice, [&positions[..]], &[0.25 * H; D]);
         assert!(D == 1 || !reach.contains(0));
         assert!(D < 3 || lattice.len() > 2 * NODE_CHUNK);
         let mut field = vec![1; lattice.len()];

@@ -1,6 +1,6 @@
-//! Scene of a run: a grid, a body, and what acts on it.
+//! Scene of a run: a grid, bodies, and what acts on them.
 
-use crate::body::Body;
+use crate::bodies::Bodies;
 use crate::contact::RigidContact;
 use crate::error::{Error, require};
 use crate::frame::Frame;
@@ -8,21 +8,24 @@ use crate::grid::Grid;
 use crate::memory::{Memory, MemoryError, Saved, restore_all, save_all};
 use crate::stage::{Constraint, Load};
 
-/// A part of the scene that the body acts on, by its place in the scene's list.
+/// A part of the scene on which something acts, by its place in the scene's list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// A constraint.
     Constraint(usize),
     /// A contact with a rigid body.
     Contact(usize),
+    /// A body that slides on others, or all that stick to each other under the place of any of them: what contact with
+    /// other bodies does to it.
+    Body(usize),
 }
 
-/// A grid, a body on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
+/// A grid, bodies on it, and the loads, constraints and contacts that the scene has. How it is solved is the solver's.
 pub struct Scene<const D: usize> {
     /// The grid.
     pub grid: Grid<D>,
-    /// The body.
-    pub body: Body<D>,
+    /// The bodies.
+    pub bodies: Bodies<D>,
     /// Loads.
     pub loads: Vec<Box<dyn Load<D>>>,
     /// Constraints. Their places are those of [`Part::Constraint`].
@@ -35,10 +38,10 @@ pub struct Scene<const D: usize> {
 pub(crate) type SavedStages = (Vec<Saved>, Vec<Saved>, Vec<Saved>);
 
 impl<const D: usize> Scene<D> {
-    /// `body` on `grid`, left to itself.
+    /// `bodies` on `grid`, left to themselves.
     #[must_use]
-    pub fn new(grid: Grid<D>, body: Body<D>) -> Self {
-        Self { grid, body, loads: Vec::new(), constraints: Vec::new(), contacts: Vec::new() }
+    pub fn new(grid: Grid<D>, bodies: Bodies<D>) -> Self {
+        Self { grid, bodies, loads: Vec::new(), constraints: Vec::new(), contacts: Vec::new() }
     }
 
     /// With another load.
@@ -66,7 +69,7 @@ impl<const D: usize> Scene<D> {
     /// Refuses particles wider than a cell.
     pub(crate) fn check_half_size(&self) -> Result<(), Error> {
         let (what, allowed) = ("particle half size", "at most half a cell (m)");
-        let mut half_size = self.body.particles.half_size.into_iter();
+        let mut half_size = self.bodies.particles.half_size.into_iter();
         half_size.try_for_each(|l| require(l <= 0.5 * self.grid.h, what, l, allowed))
     }
 
@@ -106,15 +109,14 @@ impl<const D: usize> Scene<D> {
     /// The same scene, before its first step, seen from `frame`.
     ///
     /// # Errors
-    /// As [`Body::new`].
+    /// As [`Bodies::new`].
     pub fn seen_from(self, frame: &Frame<D>) -> Result<Self, Error> {
-        let law = self.body.law.in_units(frame.scale(1, 0));
         let loads = self.loads.into_iter().map(|load| load.seen_from(frame));
         let constraints = self.constraints.into_iter().map(|c| c.seen_from(frame));
         let contacts = self.contacts.iter().map(|c| c.seen_from(frame));
         Ok(Self {
             grid: frame.grid(&self.grid),
-            body: Body::new(law, self.body.particles.seen_from(frame))?,
+            bodies: self.bodies.seen_from(frame)?,
             loads: loads.collect(),
             constraints: constraints.collect(),
             contacts: contacts.collect(),

@@ -49,13 +49,13 @@ pub trait Simulation<const D: usize>: Memory + Send {
     }
     /// The scene as it is now.
     fn scene(&self) -> &Scene<D>;
-    /// The particles, sorted by place.
+    /// The particles of all bodies, those of a body sorted by place.
     fn particles(&self) -> &Particles<D> {
-        &self.scene().body.particles
+        &self.scene().bodies.particles
     }
     /// Mass, momentum, energies, J.
     fn totals(&self) -> Totals {
-        self.scene().body.totals(self.ledger().accumulated)
+        self.scene().bodies.totals(self.ledger().accumulated)
     }
     /// Out-of-balance and held forces of the last step.
     fn residual(&self) -> Residual {

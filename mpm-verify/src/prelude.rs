@@ -38,7 +38,7 @@ pub(crate) use mpm_core::material::{
 };
 pub(crate) use mpm_core::poro::{Conductivity, Water};
 pub(crate) use mpm_core::stage::{End, Gravity, Wall, WallKind};
-pub(crate) use mpm_core::{Axis, Body, Error as Fault, Field, Grid, Part, Particles, Scene, Side, Simulation};
+pub(crate) use mpm_core::{Axis, Bodies, Error as Fault, Field, Grid, Part, Particles, Scene, Side, Simulation};
 pub(crate) use serde::{Deserialize, Serialize};
 pub(crate) use std::collections::BTreeMap;
 pub(crate) use std::f64::consts::{PI, SQRT_2, TAU};

@@ -2,7 +2,7 @@
 
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, Law, NeoHookean, NewtonianFluid, Strength, shared};
-use mpm_core::{Axis, Basis, Body, Error, Grid, Particles, Scene};
+use mpm_core::{Axis, Basis, Bodies, Error, Grid, Particles, Scene};
 
 /// Its density (kg/m³).
 pub(crate) const DENSITY: f64 = 2000.0;
@@ -27,7 +27,7 @@ pub(crate) fn sheared<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D
     let grid = Grid::new(1.0, [Axis::open(0.0, n.div_ceil(2) + 2 * MARGIN); D])?;
     let dt = courant_time_step(0.3, 1.0, law.wave_speed(DENSITY));
     let settings = Settings::new(dt).transfer(transfer).remedy(Box::new(remedy));
-    Solver::new(Scene::new(grid, Body::new(shared(law), particles)?), settings)
+    Solver::new(Scene::new(grid, Bodies::new(shared(law), particles)?), settings)
 }
 
 pub(crate) fn solid() -> Result<NeoHookean, Error> {

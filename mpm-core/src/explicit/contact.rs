@@ -19,7 +19,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         for contact in &mut scene.contacts {
             let axis = contact.face().axis();
             require(!scene.grid.axes[axis].is_periodic(), "axis of a rigid face", axis as f64, "not periodic")?;
-            contact.attach(scene.body.particles.len());
+            contact.attach(scene.bodies.particles.len());
         }
         Ok(())
     }
@@ -30,7 +30,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         let mut stiffest = Stiffest::default();
         let mut ratio = 0.0;
         for contact in &mut self.scene.contacts {
-            let found = contact.try_step(self.ledger.time, dt, &mut self.scene.body.particles);
+            let found = contact.try_step(self.ledger.time, dt, &mut self.scene.bodies.particles);
             contact.commit(dt);
             ratio += found.ratio;
             if found.ratio > stiffest.ratio {
@@ -50,7 +50,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     pub(super) fn keep_gaps_open(&self, time: f64) -> Result<(), Error> {
         for contact in &self.scene.contacts {
             contact
-                .closed_gap(time, &self.scene.body.particles)
+                .closed_gap(time, &self.scene.bodies.particles)
                 .map_err(|(index, fault)| self.breakdown(index, fault))?;
         }
         Ok(())

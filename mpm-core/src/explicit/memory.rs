@@ -7,6 +7,7 @@ use crate::explicit::transfer::Transfer;
 use crate::grid::Grid;
 use crate::ledger::Ledger;
 use crate::memory::{Memory, MemoryError, Saved, require, restore_all, save_all};
+use crate::order::Slabs;
 use crate::parallel::SLAB;
 use crate::particles::Particles;
 use crate::scene::SavedStages;
@@ -19,7 +20,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Memory for Sol
         Saved::of(&(
             self.save_body()?,
             &self.ledger,
-            settings.transfer.save()?,
+            self.fields.iter().map(|field| field.transfer.save()).collect::<Result<Vec<_>, _>>()?,
             settings.remedy.save()?,
             self.scene.save_stages()?,
             filters,
@@ -27,15 +28,17 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Memory for Sol
     }
 
     fn restore(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        type All = (Saved, Ledger, Saved, Saved, SavedStages, (Vec<Saved>, Vec<Saved>));
-        let (body, ledger, transfer, remedy, stages, filters): All = saved.read("a solver")?;
+        type All = (Saved, Ledger, Vec<Saved>, Saved, SavedStages, (Vec<Saved>, Vec<Saved>));
+        let (body, ledger, transfers, remedy, stages, filters): All = saved.read("a solver")?;
         self.ledger.check(&ledger)?;
         self.restore_body(&body)?;
         self.scene.restore_stages(&stages)?;
         let settings = &mut self.settings;
         restore_all("force filters", &mut settings.force_filters, &filters.0)?;
         restore_all("particle filters", &mut settings.particle_filters, &filters.1)?;
-        settings.transfer.restore(&transfer)?;
+        for (field, saved) in self.fields.iter_mut().zip(&transfers) {
+            field.transfer.restore(saved)?;
+        }
         settings.remedy.restore(&remedy)?;
         self.ledger.restore(ledger);
         Ok(())
@@ -43,30 +46,44 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Memory for Sol
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
-    /// The body and how it is sorted.
+    /// The bodies and how they are sorted.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
-        Saved::of(&(self.scene.body.save()?, &self.slabs, self.drift))
+        let slabs: Vec<_> = self.fields.iter().map(|field| &field.slabs).collect();
+        Saved::of(&(self.scene.bodies.save()?, slabs, self.drift))
     }
 
-    /// Replaces the body by one that was saved.
+    /// Replaces the bodies by those that were saved.
     pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let (body, slabs, drift): (Saved, Vec<Range<usize>>, f64) = saved.read("a body")?;
-        let (scene, expected) = (&mut self.scene, self.slabs.len());
-        let grid = scene.grid;
-        scene.body.restore(&body, |particles| check_places(&grid, particles, &slabs, expected))?;
-        self.slabs = slabs;
+        let (bodies, slabs, drift): (Saved, Vec<Vec<Slabs>>, f64) = saved.read("bodies")?;
+        let (grid, fields, each) = (self.scene.grid, &self.fields, &self.scene.bodies.each);
+        let mut checks = Vec::new();
+        MemoryError::unless_equal("velocity fields", slabs.len(), fields.len())?;
+        for (field, saved) in fields.iter().zip(&slabs) {
+            MemoryError::unless_equal("bodies", saved.len(), field.bodies.len())?;
+            for ((body, own), saved) in field.bodies.iter().zip(&field.slabs).zip(saved) {
+                checks.push((each[*body].range(), saved, own.len()));
+            }
+        }
+        self.scene.bodies.restore(&bodies, |particles| {
+            let mut checks = checks.into_iter();
+            checks.try_for_each(|(range, slabs, expected)| check_places(&grid, particles, range, slabs, expected))
+        })?;
+        for (field, slabs) in self.fields.iter_mut().zip(slabs) {
+            field.slabs = slabs;
+        }
         self.drift = drift;
-        self.wave_modulus = self.scene.body.wave_modulus();
+        self.wave_modulus = self.scene.bodies.wave_moduli();
         self.find_reach();
         Ok(())
     }
 }
 
-/// Checks that `slabs` divide the particles as the grid does, up to the cell that each may have moved since
+/// Checks that `slabs` divide the particles of a body, which stand in a `range`, as the grid does, up to the cell that each may have moved since
 /// they were sorted, and that no particle is off the grid: what scatters and gathers rely on.
 fn check_places<const D: usize>(
     grid: &Grid<D>,
     particles: &Particles<D>,
+    range: Range<usize>,
     slabs: &[Range<usize>],
     expected: usize,
 ) -> Result<(), MemoryError> {
@@ -75,7 +92,7 @@ fn check_places<const D: usize>(
         let fits = l > 0.0 && l <= 0.5 * grid.h;
         require(fits, "half_size", l, "positive, at most half a cell (m)")?;
     }
-    let mut end = 0;
+    let mut end = range.start;
     for (k, slab) in slabs.iter().enumerate() {
         MemoryError::unless_equal("first particle of a slab", slab.start, end)?;
         end = slab.end;
@@ -92,5 +109,5 @@ fn check_places<const D: usize>(
             }
         }
     }
-    MemoryError::unless_equal("particles in slabs", end, particles.len())
+    MemoryError::unless_equal("last particle in slabs", end, range.end)
 }

@@ -1,5 +1,6 @@
 //! The explicit step (update stress last), Sections 2.2 and 3.3 of the paper.
 
+mod between;
 mod contact;
 mod memory;
 pub mod remedy;
@@ -16,7 +17,7 @@ pub use settings::{Settings, courant_time_step, stable_cfl};
 pub use transfer::Transfer;
 
 use crate::basis::Basis;
-use crate::body::{Chunk, check_jacobian};
+use crate::bodies::{Chunk, check_jacobian};
 use crate::eights::entries;
 use crate::error::{Error, Fault};
 use crate::lattice::Lattice;
@@ -24,14 +25,17 @@ use crate::ledger::Ledger;
 use crate::memory::Saved;
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
+use crate::order::Slabs;
+use crate::parallel::CHUNK;
 use crate::projection::{Onto, Space, space};
 use crate::reach::Reach;
 use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
+use between::Touching;
 use remedy::Deformation;
-use std::ops::Range;
+use second_half::SecondHalf;
 use transfer::Flip;
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
@@ -82,35 +86,51 @@ struct NodeSums {
     momentum: Node,
 }
 
-/// The explicit solver for one body.
+/// What moves as one: the nodes that some bodies share.
+struct VelocityField<T> {
+    /// Its bodies, by place in the list, and their slabs.
+    bodies: Vec<usize>,
+    slabs: Vec<Slabs>,
+    nodes: Vec<NodalState>,
+    /// The nodes that its particles see until they are sorted again; all others are zero.
+    reach: Reach,
+    /// Prescribed velocities of these nodes.
+    prescribed: Vec<Prescribed>,
+    transfer: T,
+}
+
+/// The explicit solver.
 pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     scene: Scene<D>,
     settings: Settings<D, T>,
     lattice: Lattice<D, S, B>,
-    slabs: Vec<Range<usize>>,
-    nodes: Vec<NodalState>,
+    /// That of the bodies that stick, if there are any, and one of each that slides.
+    fields: Vec<VelocityField<T>>,
+    /// The field of every body.
+    field_of: Vec<usize>,
+    /// Where bodies of different fields may touch.
+    touching: Touching<D>,
     /// The acceleration of all material in the step (m/s²).
     gravity: Node,
-    /// The functions that the remedy averages with.
-    space: Box<dyn Space<D>>,
-    /// The nodes that particles see until they are sorted again; all others are zero.
-    reach: Reach,
-    /// All prescribed velocities, and those of nodes within reach.
+    /// The functions that the remedy averages with, of every body.
+    spaces: Vec<Box<dyn Space<D>>>,
+    /// All prescribed velocities.
     declared: Vec<Prescribed>,
-    prescribed: Vec<Prescribed>,
     /// Amplitudes of the constraints in the step.
     amplitudes: Vec<f64>,
     /// The mean stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
     force_mean: Vec<f64>,
     /// Between G2P and the law.
     deformation: Deformation<D>,
+    /// What follows G2P, of every body.
+    second_half: Vec<SecondHalf<D>>,
     chunk_sums: Vec<ChunkSums>,
     node_sums: Vec<NodeSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
     drift: f64,
-    /// Least density of the undeformed material (kg/m³), and the greatest modulus ρ₀ c² of waves (Pa).
-    density: f64,
-    wave_modulus: f64,
+    /// Of every body, least density of the undeformed material (kg/m³), and greatest modulus ρ₀ c² of waves (Pa).
+    density: Vec<f64>,
+    wave_modulus: Vec<f64>,
     ledger: Ledger,
     /// Particle–node visits per particle and step, averages aside.
     transfer_pairs: u64,
@@ -124,6 +144,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
         self.particles_to_grid();
         self.move_constraints();
         self.update_grid();
+        self.meet();
         self.grid_to_particles()?;
         self.keep_gaps_open(self.ledger.time + self.settings.dt)?;
         self.average_volume_change()?;
@@ -147,7 +168,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
         let work = self.ledger.work;
         self.average_stress();
         self.ledger.work = work;
-        let p = &self.scene.body.particles;
+        let p = &self.scene.bodies.particles;
         let mut stress = p.stress.clone();
         let columns = stress.iter_mut().zip(&self.force_mean);
         for ((stress, mean), (j_bar, j)) in columns.zip(p.j_bar.iter().zip(&p.jacobian)) {
@@ -159,7 +180,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
     fn field(&mut self, field: Field) -> Vec<f64> {
         match field {
             Field::PorePressure | Field::Porosity => Vec::new(),
-            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::PlasticStrain => self.scene.bodies.plastic_strain(),
             Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
             Field::AveragedMeanStress => {
                 let mut mean = self.field(Field::MeanStress);
@@ -184,30 +205,37 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Replaces `field` (one value per particle) by its average Π `field`. No work of the run: it is not counted.
     pub fn average(&mut self, field: &mut [f64]) {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let other = self.settings.remedy.averages_onto().is_some_and(|onto| onto != Onto::Basis);
-        let mut own = other.then(|| {
-            let mut own = space::<D, S, B>(self.scene.grid, self.settings.wall, None);
-            own.find_reach(particles, &self.slabs);
-            own
-        });
-        own.as_mut().unwrap_or(&mut self.space).average(particles, field);
+        for (fields, slabs) in self.fields.iter().flat_map(|field| field.bodies.iter().zip(&field.slabs)) {
+            let mut own = other.then(|| {
+                let mut own = space::<D, S, B>(self.scene.grid, self.settings.wall, None);
+                own.find_reach(particles, slabs);
+                own
+            });
+            own.as_mut().unwrap_or(&mut self.spaces[*fields]).average(particles, field);
+        }
     }
 
     /// After the law: the greatest modulus of waves.
     fn find_fastest_wave(&mut self) {
-        let moduli = self.chunk_sums.iter().map(|sums| sums.wave_modulus);
-        let greatest = moduli.fold(Eight::ZERO, Eight::fast_max);
-        self.wave_modulus = greatest.to_array().into_iter().fold(0.0, f64::max);
+        let mut sums = &self.chunk_sums[..];
+        for (modulus, body) in self.wave_modulus.iter_mut().zip(&self.scene.bodies.each) {
+            let (own, others) = sums.split_at(body.range().len().div_ceil(CHUNK));
+            let greatest = own.iter().map(|sums| sums.wave_modulus).fold(Eight::ZERO, Eight::fast_max);
+            *modulus = greatest.to_array().into_iter().fold(0.0, f64::max);
+            sums = others;
+        }
     }
 
     /// Speed of the fastest wave (m/s).
     fn wave_speed(&self) -> f64 {
-        (self.wave_modulus / self.density).sqrt()
+        let squares = self.wave_modulus.iter().zip(&self.density).map(|(modulus, density)| modulus / density);
+        squares.fold(0.0, f64::max).sqrt()
     }
 
     fn breakdown(&self, index: usize, fault: Fault) -> Error {
-        let ids = &self.scene.body.particles.id;
+        let ids = &self.scene.bodies.particles.id;
         self.ledger.breakdown(ids, index, fault)
     }
 

@@ -3,7 +3,7 @@
 use super::remedy::force_stress;
 use super::{ChunkSums, check_cfl};
 use crate::basis::Basis;
-use crate::body::Chunk;
+use crate::bodies::Chunk;
 use crate::eights::{Eights, block, components, entries, numbers, store_numbers, store_vectors};
 use crate::grid::Grid;
 use crate::number::{EIGHT, Eight, Lanes};

@@ -13,7 +13,7 @@ const MOTION: f64 = 3.0;
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// After the particles' motion: sorts them when one may have left the neighbours of the cell where it was.
     pub(super) fn sort_if_needed(&mut self) {
-        self.space.expire();
+        self.spaces.iter_mut().for_each(|space| space.expire());
         let mut largest = 0.0_f64;
         for sums in &self.chunk_sums {
             let jump = if sums.wrapped { f64::INFINITY } else { 0.0 };
@@ -28,10 +28,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     }
 
     pub(super) fn sort(&mut self) {
-        let p = &self.scene.body.particles;
-        let (order, slabs) = stencil_order(&self.lattice, &p.position, &p.half_size);
-        self.scene.body.permute(&order);
-        self.slabs = slabs;
+        let bodies = &self.scene.bodies;
+        let mut order: Vec<u32> = (0..bodies.particles.len() as u32).collect();
+        for field in &mut self.fields {
+            for (body, slabs) in field.bodies.iter().zip(&mut field.slabs) {
+                let (p, range) = (&bodies.particles, bodies.each[*body].range());
+                let (own, here) = stencil_order(&self.lattice, &p.position[range.clone()], &p.half_size);
+                *slabs = here.into_iter().map(|slab| slab.start + range.start..slab.end + range.start).collect();
+                for (place, from) in order[range.clone()].iter_mut().zip(own) {
+                    *place = range.start as u32 + from;
+                }
+            }
+        }
+        self.scene.bodies.permute(&order);
         self.drift = 0.0;
         self.ledger.work.sorts += 1;
         self.find_reach();
@@ -40,15 +49,20 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted
     /// again.
     pub(super) fn find_reach(&mut self) {
-        let p = &self.scene.body.particles;
-        self.reach = Reach::of(&self.lattice, &p.position, &p.half_size);
+        let p = &self.scene.bodies.particles;
         for contact in &mut self.scene.contacts {
             contact.find_near(self.ledger.time, MOTION * self.scene.grid.h, p);
         }
-        self.nodes.fill(NodalState::default());
-        self.space.find_reach(p, &self.slabs);
-        let within = self.declared.iter().filter(|c| self.reach.contains(c.node));
-        self.prescribed.clear();
-        self.prescribed.extend(within);
+        for field in &mut self.fields {
+            let ranges = field.bodies.iter().map(|body| self.scene.bodies.each[*body].range());
+            field.reach = Reach::of(&self.lattice, ranges.map(|range| &p.position[range]), &p.half_size);
+            field.nodes.fill(NodalState::default());
+            let within = self.declared.iter().filter(|c| field.reach.contains(c.node));
+            field.prescribed.clear();
+            field.prescribed.extend(within);
+            for (body, slabs) in field.bodies.iter().zip(&field.slabs) {
+                self.spaces[*body].find_reach(p, slabs);
+            }
+        }
     }
 }

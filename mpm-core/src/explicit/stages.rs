@@ -1,16 +1,17 @@
 //! The stages of the explicit step, in its order.
 
-use super::second_half::{ForceStress, SecondHalf, force_stress_of};
+use super::second_half::{ForceStress, force_stress_of};
 use super::transfer::{Given, Received, Transfer};
-use super::{ChunkSums, NodeSums, Solver};
+use super::{ChunkSums, NodeSums, Solver, VelocityField};
 use crate::basis::Basis;
+use crate::bodies::Bodies;
 use crate::eights::{AHEAD, Eights, block, blocks, components, entries, numbers, store, store_numbers, store_vectors};
 use crate::error::Error;
-use crate::lattice::Stencils;
+use crate::lattice::{Lattice, Stencils};
 use crate::monitor::Residual;
 use crate::nodes::{NodalState, Node, padded};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::{NODE_CHUNK, PerPiece, for_each_chunk, for_each_piece, scatter};
+use crate::parallel::{NODE_CHUNK, PerPiece, for_each_chunk, for_each_piece, scatter_all};
 use crate::projection::Projection;
 use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
@@ -25,21 +26,23 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             *held = amplitude;
             reaction.force = [0.0; 3];
         }
-        for p in &mut self.prescribed {
-            p.velocity = self.amplitudes[p.by] * p.full_velocity;
-            let node = &self.nodes[p.node];
-            p.force = (node.change + self.gravity * node.mass()).as_array()[p.axis];
+        for VelocityField { prescribed, nodes, .. } in &mut self.fields {
+            for p in prescribed {
+                p.velocity = self.amplitudes[p.by] * p.full_velocity;
+                let node = &nodes[p.node];
+                p.force = (node.change + self.gravity * node.mass()).as_array()[p.axis];
+            }
         }
     }
 
     /// Forces on particles; of what accelerates all material alike, its share in the nodes' update.
     pub(super) fn apply_loads(&mut self) {
-        self.scene.body.particles.external_force.fill([0.0; D]);
+        self.scene.bodies.particles.external_force.fill([0.0; D]);
         self.gravity = Node::ZERO;
         for load in &self.scene.loads {
             match load.acceleration(self.ledger.time) {
                 Some(acceleration) => self.gravity += padded(&acceleration),
-                None => load.add(self.ledger.time, &mut self.scene.body.particles),
+                None => load.add(self.ledger.time, &mut self.scene.bodies.particles),
             }
         }
     }
@@ -47,195 +50,194 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// Mass, momentum and forces to the nodes, Eqs. (7), (8), (10).
     pub(super) fn particles_to_grid(&mut self) {
         let lattice = &self.lattice;
-        let (transfer, p) = (&self.settings.transfer, &self.scene.body.particles);
-        let force_mean = &self.force_mean;
-        self.reach.clear(&mut self.nodes);
-        scatter(&mut self.nodes, lattice.plane(), &self.slabs, |slab, nodes, origin| {
-            let x = Eights::of(&p.position[slab.clone()]);
-            let v = Eights::of(&p.velocity[slab.clone()]);
-            let mass = Eights::of(&p.mass[slab.clone()]);
-            let volume = Eights::of(&p.volume[slab.clone()]);
-            let affine = p.affine.get(slab.clone()).map(Eights::of);
-            let external_force = p.external_force.get(slab.clone()).map(Eights::of);
-            let stress = ForceStress::of(p, force_mean, slab.clone());
-            let mut stencils = Stencils::on(lattice);
-            let mut given = Given::default();
-            for k in 0..blocks(slab.len()) {
-                x.fetch(k + AHEAD);
-                v.fetch(k + AHEAD);
-                mass.fetch(k + AHEAD);
-                volume.fetch(k + AHEAD);
-                stress.fetch(k + AHEAD);
-                let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
-                let functions = lattice.functions(&x, &p.half_size);
-                lattice.stencils(&functions, &mut stencils);
-                given.set(
-                    mass,
-                    &components(v.at(k)),
-                    Eight::new(*volume.at(k)),
-                    &stress.at::<D>(k),
-                    external_force.as_ref().map(|force| components(force.at(k))),
-                );
-                let affine = affine.as_ref().map(|affine| affine.at(k));
-                let gives = transfer.give(lattice, &functions, &x, mass, affine);
-                for l in 0..entries(slab.len(), k) {
-                    transfer.particle_to_grid(stencils.at(l), &given, &gives, nodes, origin);
+        let (p, force_mean) = (&self.scene.bodies.particles, &self.force_mean);
+        for VelocityField { transfer, reach, slabs, nodes, .. } in &mut self.fields {
+            reach.clear(nodes);
+            scatter_all(nodes, lattice.plane(), slabs, |slab, nodes, origin| {
+                let x = Eights::of(&p.position[slab.clone()]);
+                let v = Eights::of(&p.velocity[slab.clone()]);
+                let mass = Eights::of(&p.mass[slab.clone()]);
+                let volume = Eights::of(&p.volume[slab.clone()]);
+                let affine = p.affine.get(slab.clone()).map(Eights::of);
+                let external_force = p.external_force.get(slab.clone()).map(Eights::of);
+                let stress = ForceStress::of(p, force_mean, slab.clone());
+                let mut stencils = Stencils::on(lattice);
+                let mut given = Given::default();
+                for k in 0..blocks(slab.len()) {
+                    x.fetch(k + AHEAD);
+                    v.fetch(k + AHEAD);
+                    mass.fetch(k + AHEAD);
+                    volume.fetch(k + AHEAD);
+                    stress.fetch(k + AHEAD);
+                    let (x, mass) = (components(x.at(k)), Eight::new(*mass.at(k)));
+                    let functions = lattice.functions(&x, &p.half_size);
+                    lattice.stencils(&functions, &mut stencils);
+                    given.set(
+                        mass,
+                        &components(v.at(k)),
+                        Eight::new(*volume.at(k)),
+                        &stress.at::<D>(k),
+                        external_force.as_ref().map(|force| components(force.at(k))),
+                    );
+                    let affine = affine.as_ref().map(|affine| affine.at(k));
+                    let gives = transfer.give(lattice, &functions, &x, mass, affine);
+                    for l in 0..entries(slab.len(), k) {
+                        transfer.particle_to_grid(stencils.at(l), &given, &gives, nodes, origin);
+                    }
                 }
-            }
-        });
-        lattice.fold(&mut self.nodes);
+            });
+            lattice.fold(nodes);
+        }
     }
 
     /// New nodal velocities, Eq. (9), with filters and constraints.
     pub(super) fn update_grid(&mut self) {
         let (dt, gravity) = (self.settings.dt, self.gravity);
         let filters = &self.settings.force_filters;
-        let (reach, n) = (&self.reach, self.nodes.len());
-        let fields = (&mut self.nodes[..], PerPiece(&mut self.node_sums));
-        for_each_piece(fields, n, NODE_CHUNK, &|begin, (nodes, sums)| {
-            let mut of_piece = NodeSums::default();
-            for node in reach.within(begin, nodes.len()).flatten() {
-                update_node::<D>(&mut nodes[node], dt, gravity, filters, &mut of_piece);
-            }
-            sums.0.fill(of_piece);
-        });
         let mut residual = Residual::default();
         let mut momentum = Node::ZERO;
-        for sums in &self.node_sums {
-            momentum += sums.momentum;
-            residual.free_force += sums.free_force;
-            residual.kinetic_energy += sums.kinetic_energy;
-            self.ledger.accumulated.damping += dt * sums.damping;
-        }
-        for c in &self.prescribed {
-            let node = &mut self.nodes[c.node];
-            let mass = node.mass();
-            let free = node.motion.as_array()[c.axis];
-            let Some(held) = c.held(free) else {
-                continue;
-            };
-            residual.kinetic_energy -= node.kinetic_energy();
-            let change = &mut node.change.as_mut_array()[c.axis];
-            let velocity = &mut node.motion.as_mut_array()[c.axis];
-            let before = free - *change;
-            residual.free_force -= (mass * *change / dt).abs();
-            residual.held_force[c.axis] += c.force;
-            let reaction = &mut self.ledger.reactions[c.by];
-            reaction.force[c.axis] += c.force;
-            reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
-            self.ledger.accumulated.constraint_loss +=
-                mass * (0.5 * (before * before - held * held) + (free - before) * held);
-            *change += held - free;
-            *velocity = held;
-            momentum.as_mut_array()[c.axis] += mass * (held - free);
-            residual.kinetic_energy += node.kinetic_energy();
+        for VelocityField { reach, nodes, prescribed, .. } in &mut self.fields {
+            let (reach, n) = (&*reach, nodes.len());
+            let pieces = (&mut nodes[..], PerPiece(&mut self.node_sums));
+            for_each_piece(pieces, n, NODE_CHUNK, &|begin, (nodes, sums)| {
+                let mut of_piece = NodeSums::default();
+                for node in reach.within(begin, nodes.len()).flatten() {
+                    update_node::<D>(&mut nodes[node], dt, gravity, filters, &mut of_piece);
+                }
+                sums.0.fill(of_piece);
+            });
+            for sums in &self.node_sums {
+                momentum += sums.momentum;
+                residual.free_force += sums.free_force;
+                residual.kinetic_energy += sums.kinetic_energy;
+                self.ledger.accumulated.damping += dt * sums.damping;
+            }
+            for c in prescribed {
+                let node = &mut nodes[c.node];
+                let mass = node.mass();
+                let free = node.motion.as_array()[c.axis];
+                let Some(held) = c.held(free) else {
+                    continue;
+                };
+                residual.kinetic_energy -= node.kinetic_energy();
+                let change = &mut node.change.as_mut_array()[c.axis];
+                let velocity = &mut node.motion.as_mut_array()[c.axis];
+                let before = free - *change;
+                residual.free_force -= (mass * *change / dt).abs();
+                residual.held_force[c.axis] += c.force;
+                let reaction = &mut self.ledger.reactions[c.by];
+                reaction.force[c.axis] += c.force;
+                reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
+                self.ledger.accumulated.constraint_loss += constraint_loss(mass, before, free, held);
+                *change += held - free;
+                *velocity = held;
+                momentum.as_mut_array()[c.axis] += mass * (held - free);
+                residual.kinetic_energy += node.kinetic_energy();
+            }
         }
         self.ledger.residual = residual;
         for (g, momentum) in gravity.as_array()[..D].iter().zip(momentum.as_array()) {
             self.ledger.accumulated.load_work += dt * g * momentum;
         }
-        if S == 2 {
-            self.carry_along();
-        }
-        self.lattice.unfold(&mut self.nodes);
     }
 
-    /// Gives nodes without mass the mean velocity of those beside them: a particle that stands on a node sees the next
-    /// one by its gradient alone, where functions are not smooth.
-    fn carry_along(&mut self) {
-        let nodes = &mut self.nodes;
-        for node in self.reach.within(0, nodes.len()).flatten() {
-            if nodes[node].mass() <= 0.0 {
-                let (mut sum, mut count) = (Node::ZERO, 0.0);
-                for k in self.lattice.beside(node).filter(|k| nodes[*k].mass() > 0.0) {
-                    (sum, count) = (sum + nodes[k].motion, count + 1.0);
-                }
-                for a in 0..D {
-                    nodes[node].motion.as_mut_array()[a] = sum.as_array()[a] / f64::max(count, 1.0);
-                }
+    /// Once nodes move as they will: what particles see of nodes that have no mass or are images.
+    fn complete_nodes(&mut self) {
+        for field in &mut self.fields {
+            if S == 2 {
+                carry_along(&self.lattice, field);
             }
+            self.lattice.unfold(&mut field.nodes);
         }
     }
 
     /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the
     /// [`SecondHalf`] of their step, unless the remedy averages before it.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
-        let second_half = self.second_half();
-        let (lattice, nodes) = (&self.lattice, &self.nodes);
-        let body = &mut self.scene.body;
-        let transfer = &mut self.settings.transfer;
-        let passes = 1 + transfer.prepare(lattice, &body.particles, &self.slabs, nodes, &self.prescribed);
-        let (transfer, force_mean) = (&*transfer, self.force_mean.as_slice());
-        let half_size = body.particles.half_size;
+        self.complete_nodes();
+        let lattice = &self.lattice;
+        let half_size = self.scene.bodies.particles.half_size;
         let dt = Eight::splat(self.settings.dt);
-        let all = (body.chunk(), self.deformation.chunk());
-        for_each_chunk(all, &mut self.chunk_sums, &|(mut p, mut deformation), sums| {
-            *sums = ChunkSums::default();
-            let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
-            let mut stencils = Stencils::on(lattice);
-            let (mut received, mut receives) = (Received::default(), T::Receives::default());
-            for k in 0..blocks(p.len()) {
-                p.fetch_motion(k + AHEAD);
-                if !deformation.is_there() {
-                    p.fetch_second_half(k + AHEAD);
-                }
-                let x = components(block(p.position, k, &mut None));
-                let functions = lattice.functions(&x, &half_size);
-                lattice.stencils(&functions, &mut stencils);
-                let gives = transfer.give(lattice, &functions, &x, Eight::ZERO, None);
-                for l in 0..EIGHT {
-                    let stencil = stencils.at(l);
-                    transfer.grid_to_particle(stencil, &gives, nodes, &mut received, &mut receives);
-                }
-                let mut v = components(block(p.velocity, k, &mut None));
-                let mut affine = (!p.affine.is_empty()).then(|| *block(p.affine, k, &mut None));
-                let moving = transfer.receive(&received, &receives, &mut v, &mut affine);
-                store_vectors(p.velocity, k, &v);
-                if let Some(affine) = affine {
-                    store(p.affine, k, |l| affine[l]);
-                }
-
-                let stress = force_stress_of(&p, force_mean, k);
-                let mut delta_f = [[Eight::ZERO; D]; D];
-                let mut increment = [Eight::ZERO; D];
-                let mut power = Eight::ZERO;
-                for a in 0..D {
-                    increment[a] = dt * moving[a];
-                    for b in 0..D {
-                        let gradient = received.gradient(a, b);
-                        power = stress.get(a, b).mul_add(gradient, power);
-                        let identity = Eight::splat(f64::from(u8::from(a == b)));
-                        delta_f[a][b] = gradient.mul_add(dt, identity);
+        let force_mean = self.force_mean.as_slice();
+        let mut passes = 0;
+        for VelocityField { transfer, bodies, slabs, nodes, prescribed, .. } in &mut self.fields {
+            let extra = transfer.prepare(lattice, &self.scene.bodies.particles, slabs, nodes, prescribed);
+            let particles = bodies.iter().map(|body| self.scene.bodies.each[*body].range().len() as u64);
+            passes += (1 + extra) * particles.sum::<u64>();
+        }
+        let (mut deformation, mut sums) = (self.deformation.chunk(), &mut self.chunk_sums[..]);
+        for (body, field) in self.field_of.iter().enumerate() {
+            let VelocityField { transfer, nodes, .. } = &self.fields[*field];
+            let second_half = &self.second_half[body];
+            let (all, own) = self.scene.bodies.part(body, &mut deformation, &mut sums);
+            for_each_chunk(all, own, &|(mut p, mut deformation), sums| {
+                *sums = ChunkSums::default();
+                let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
+                let mut stencils = Stencils::on(lattice);
+                let (mut received, mut receives) = (Received::default(), T::Receives::default());
+                for k in 0..blocks(p.len()) {
+                    p.fetch_motion(k + AHEAD);
+                    if !deformation.is_there() {
+                        p.fetch_second_half(k + AHEAD);
                     }
-                }
-                stress_power += p.present(k, power * numbers(p.volume, k));
-                if !p.external_force.is_empty() {
-                    let force = components(block(p.external_force, k, &mut None));
+                    let x = components(block(p.position, k, &mut None));
+                    let functions = lattice.functions(&x, &half_size);
+                    lattice.stencils(&functions, &mut stencils);
+                    let gives = transfer.give(lattice, &functions, &x, Eight::ZERO, None);
+                    for l in 0..EIGHT {
+                        let stencil = stencils.at(l);
+                        transfer.grid_to_particle(stencil, &gives, nodes, &mut received, &mut receives);
+                    }
+                    let mut v = components(block(p.velocity, k, &mut None));
+                    let mut affine = (!p.affine.is_empty()).then(|| *block(p.affine, k, &mut None));
+                    let moving = transfer.receive(&received, &receives, &mut v, &mut affine);
+                    store_vectors(p.velocity, k, &v);
+                    if let Some(affine) = affine {
+                        store(p.affine, k, |l| affine[l]);
+                    }
+
+                    let stress = force_stress_of(&p, force_mean, k);
+                    let mut delta_f = [[Eight::ZERO; D]; D];
+                    let mut increment = [Eight::ZERO; D];
                     let mut power = Eight::ZERO;
                     for a in 0..D {
-                        power = force[a].mul_add(received.velocity(a), power);
+                        increment[a] = dt * moving[a];
+                        for b in 0..D {
+                            let gradient = received.gradient(a, b);
+                            power = stress.get(a, b).mul_add(gradient, power);
+                            let identity = Eight::splat(f64::from(u8::from(a == b)));
+                            delta_f[a][b] = gradient.mul_add(dt, identity);
+                        }
                     }
-                    load_power += p.present(k, power);
+                    stress_power += p.present(k, power * numbers(p.volume, k));
+                    if !p.external_force.is_empty() {
+                        let force = components(block(p.external_force, k, &mut None));
+                        let mut power = Eight::ZERO;
+                        for a in 0..D {
+                            power = force[a].mul_add(received.velocity(a), power);
+                        }
+                        load_power += p.present(k, power);
+                    }
+                    let volume_change = determinant_of_entries(&delta_f);
+                    let j = numbers(p.jacobian, k) * volume_change;
+                    store_numbers(p.jacobian, k, j);
+                    if !p.increment.is_empty() {
+                        store_vectors(p.increment, k, &increment);
+                    }
+                    if !sums.check_jacobians(&p, k, j) {
+                        continue;
+                    }
+                    if deformation.is_there() {
+                        deformation.keep(k, &delta_f, volume_change, &increment);
+                    } else {
+                        second_half.finish(&mut p, k, &delta_f, &increment, sums);
+                    }
                 }
-                let volume_change = determinant_of_entries(&delta_f);
-                let j = numbers(p.jacobian, k) * volume_change;
-                store_numbers(p.jacobian, k, j);
-                if !p.increment.is_empty() {
-                    store_vectors(p.increment, k, &increment);
-                }
-                if !sums.check_jacobians(&p, k, j) {
-                    continue;
-                }
-                if deformation.is_there() {
-                    deformation.keep(k, &delta_f, volume_change, &increment);
-                } else {
-                    second_half.finish(&mut p, k, &delta_f, &increment, sums);
-                }
-            }
-            sums.stress_power = stress_power.reduce_add();
-            sums.load_power = load_power.reduce_add();
-        });
-        self.ledger.work.particle_node_pairs += passes * self.transfer_pairs * self.ledger.work.particles;
+                sums.stress_power = stress_power.reduce_add();
+                sums.load_power = load_power.reduce_add();
+            });
+        }
+        self.ledger.work.particle_node_pairs += passes * self.transfer_pairs;
         for sums in &self.chunk_sums {
             self.ledger.accumulated.stress_work += self.settings.dt * sums.stress_power;
             self.ledger.accumulated.load_work += self.settings.dt * sums.load_power;
@@ -245,8 +247,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
 
     /// The mean stress of the forces, where the remedy has a share in it.
     pub(super) fn average_stress(&mut self) {
-        let mut projection = Projection { space: self.space.as_mut(), work: &mut self.ledger.work };
-        let particles = &self.scene.body.particles;
+        let Bodies { particles, each } = &self.scene.bodies;
+        let mut projection = Projection { spaces: &mut self.spaces, each, work: &mut self.ledger.work };
         let remedy = &mut self.settings.remedy;
         remedy.force_mean(particles, &mut projection, &mut self.force_mean);
     }
@@ -254,13 +256,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
     /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
-        let second_half = self.second_half();
-        let mut projection = Projection { space: self.space.as_mut(), work: &mut self.ledger.work };
-        let (remedy, body) = (self.settings.remedy.as_mut(), &mut self.scene.body);
-        let next = remedy.next_j_bar(&body.particles, &self.deformation, &mut projection);
-        let all = (body.chunk(), self.deformation.chunk());
-        if all.1.is_there() {
-            for_each_chunk(all, &mut self.chunk_sums, &|(mut p, deformation), sums| {
+        let Bodies { particles, each } = &self.scene.bodies;
+        let mut projection = Projection { spaces: &mut self.spaces, each, work: &mut self.ledger.work };
+        let next = self.settings.remedy.next_j_bar(particles, &self.deformation, &mut projection);
+        let (mut deformation, mut sums) = (self.deformation.chunk(), &mut self.chunk_sums[..]);
+        let there = deformation.is_there();
+        for (body, second_half) in self.second_half.iter().enumerate().filter(|_| there) {
+            let (all, own) = self.scene.bodies.part(body, &mut deformation, &mut sums);
+            for_each_chunk(all, own, &|(mut p, deformation), sums| {
                 let next = next.map(|next| &next[p.begin..p.begin + p.len()]);
                 for k in 0..blocks(p.len()) {
                     p.fetch_second_half(k + AHEAD);
@@ -279,17 +282,36 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         self.first_fault()
     }
 
-    fn second_half(&self) -> SecondHalf<D> {
-        let half_size = &self.scene.body.particles.half_size;
-        SecondHalf::of::<S, B>(&self.scene.grid, self.settings.dt, self.density, half_size)
-    }
-
     pub(super) fn filter_particles(&mut self) {
         for filter in &mut self.settings.particle_filters {
             self.ledger.accumulated.filter_loss +=
-                filter.filter(self.ledger.residual.kinetic_energy, &mut self.scene.body.particles);
+                filter.filter(self.ledger.residual.kinetic_energy, &mut self.scene.bodies.particles);
         }
     }
+}
+
+/// Gives nodes without mass the mean velocity of those beside them: a particle that stands on a node sees the next one by
+/// its gradient alone, where functions are not smooth.
+fn carry_along<const D: usize, const S: usize, B: Basis<S>, T>(
+    lattice: &Lattice<D, S, B>,
+    VelocityField { nodes, reach, .. }: &mut VelocityField<T>,
+) {
+    for node in reach.within(0, nodes.len()).flatten() {
+        if nodes[node].mass() <= 0.0 {
+            let (mut sum, mut count) = (Node::ZERO, 0.0);
+            for k in lattice.beside(node).filter(|k| nodes[*k].mass() > 0.0) {
+                (sum, count) = (sum + nodes[k].motion, count + 1.0);
+            }
+            for a in 0..D {
+                nodes[node].motion.as_mut_array()[a] = sum.as_array()[a] / f64::max(count, 1.0);
+            }
+        }
+    }
+}
+
+/// Energy (J) that one who holds a component of a node's velocity removes: see [`Accumulated`].
+pub(super) fn constraint_loss(mass: f64, before: f64, free: f64, held: f64) -> f64 {
+    mass * (0.5 * (before * before - held * held) + (free - before) * held)
 }
 
 /// The new velocity of a node, Eq. (9), and its share in the sums.

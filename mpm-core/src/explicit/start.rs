@@ -1,12 +1,15 @@
 //! A solver at time zero.
 
+use super::between::Touching;
 use super::remedy::Deformation;
-use super::{ChunkSums, NodeSums, Settings, Solver, Transfer, check_cfl};
+use super::second_half::SecondHalf;
+use super::{ChunkSums, NodeSums, Settings, Solver, Transfer, VelocityField, check_cfl};
 use crate::basis::Basis;
-use crate::error::{Error, positive};
+use crate::error::{Error, positive, require};
 use crate::lattice::Lattice;
 use crate::ledger::Ledger;
 use crate::nodes::{NodalState, Node};
+use crate::order::Slabs;
 use crate::parallel::{CHUNK, NODE_CHUNK};
 use crate::projection::space;
 use crate::reach::Reach;
@@ -19,11 +22,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     ///
     /// # Errors
     /// A time step or particle that is not allowed; a particle off the grid; a time step beyond the CFL limit; a
-    /// particle in a rigid body; a constraint that holds no node of its own.
+    /// particle in a rigid body; a constraint that holds no node of its own; bodies that slide where an axis is periodic.
     pub fn new(mut scene: Scene<D>, mut settings: Settings<D, T>) -> Result<Self, Error> {
         positive(settings.dt, "time step", "positive (s)")?;
         scene.check_half_size()?;
-        let particles = &mut scene.body.particles;
+        let particles = &mut scene.bodies.particles;
         let lattice = Lattice::new(scene.grid, settings.wall);
         settings.remedy.attach(particles);
         settings.transfer.attach(particles);
@@ -37,27 +40,46 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             particles.increment = Vec::new();
         }
         let n = particles.len();
-        let deformation = match settings.remedy.averages_onto().is_some() || !scene.contacts.is_empty() {
-            true => Deformation::of(settings.remedy.as_ref(), n),
+        let (bodies, onto) = (&scene.bodies, settings.remedy.averages_onto());
+        let lengths: Vec<usize> = bodies.each.iter().map(|body| body.range().len()).collect();
+        let deformation = match onto.is_some() || !scene.contacts.is_empty() {
+            true => Deformation::of(settings.remedy.as_ref(), &lengths),
             false => Deformation::default(),
         };
-        let mut solver = Self {
-            slabs: Vec::new(),
+        let (slide, stick): (Vec<usize>, _) = (0..lengths.len()).partition(|k| bodies.each[*k].slides.is_some());
+        let groups = [stick].into_iter().chain(slide.into_iter().map(|body| vec![body]));
+        let field = |bodies: Vec<usize>| VelocityField {
+            slabs: vec![Slabs::new(); bodies.len()],
+            bodies,
             nodes: vec![NodalState::default(); lattice.len()],
-            gravity: Node::ZERO,
-            space: space::<D, S, B>(scene.grid, settings.wall, settings.remedy.averages_onto()),
             reach: Reach::everything(&lattice),
-            declared: Vec::new(),
             prescribed: Vec::new(),
+            transfer: settings.transfer.clone(),
+        };
+        let fields: Vec<_> = groups.filter(|bodies| !bodies.is_empty()).map(field).collect();
+        let several = fields.len() > 1;
+        let field_of = |body| fields.iter().position(|field| field.bodies.contains(&body)).unwrap_or_default();
+        let density: Vec<f64> = bodies.each.iter().map(|body| body.least_density(&bodies.particles)).collect();
+        let half_size = &bodies.particles.half_size;
+        let second_half = |density| SecondHalf::of::<S, B>(&scene.grid, settings.dt, density, half_size);
+        require(!(several && lattice.has_images()), "bodies that slide, on axes that are periodic", 1.0, "0")?;
+        let mut solver = Self {
+            touching: Touching::new(if several { lattice.len() } else { 0 }),
+            field_of: (0..lengths.len()).map(field_of).collect(),
+            second_half: density.iter().copied().map(second_half).collect(),
+            fields,
+            gravity: Node::ZERO,
+            spaces: lengths.iter().map(|_| space::<D, S, B>(scene.grid, settings.wall, onto)).collect(),
+            declared: Vec::new(),
             amplitudes: vec![0.0; scene.constraints.len()],
             force_mean: Vec::new(),
             deformation,
-            chunk_sums: vec![ChunkSums::default(); n.div_ceil(CHUNK)],
+            chunk_sums: vec![ChunkSums::default(); lengths.iter().map(|n| n.div_ceil(CHUNK)).sum()],
             node_sums: vec![NodeSums::default(); lattice.len().div_ceil(NODE_CHUNK)],
             drift: 0.0,
-            density: scene.body.least_density(),
-            wave_modulus: scene.body.wave_modulus(),
-            ledger: Ledger::new(n, lattice.len(), scene.constraints.len()),
+            density,
+            wave_modulus: bodies.wave_moduli(),
+            ledger: Ledger::new([n, lattice.len()], scene.constraints.len(), bodies.each.len()),
             transfer_pairs: 2 * (S as u64).pow(D as u32),
             lattice,
             scene,
@@ -97,12 +119,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
 
     fn check_positions(&mut self) -> Result<(), Error> {
         check_cfl(self.wave_speed() * self.settings.dt, self.scene.grid.h).map_err(|fault| self.breakdown(0, fault))?;
-        let beyond = self.scene.body.particles.half_size.map(B::beyond_wall);
+        let beyond = self.scene.bodies.particles.half_size.map(B::beyond_wall);
         let room = Room::new(&self.scene.grid, beyond);
-        for k in 0..self.scene.body.particles.len() {
-            let mut x = self.scene.body.particles.position[k];
+        for k in 0..self.scene.bodies.particles.len() {
+            let mut x = self.scene.bodies.particles.position[k];
             room.place(&mut x).map_err(|fault| self.breakdown(k, fault))?;
-            self.scene.body.particles.position[k] = x;
+            self.scene.bodies.particles.position[k] = x;
         }
         Ok(())
     }

@@ -58,7 +58,7 @@ impl<const D: usize> Solver<D> {
     /// The factors of the stiffness at the last equilibrium.
     fn factors(&self, setting: &Setting<D>) -> Option<Direct> {
         let pattern = &setting.pattern;
-        let step = setting.step(&self.scene.body, self.settings.rule.place() * self.settings.dt);
+        let step = setting.step(&self.scene.bodies, self.settings.rule.place() * self.settings.dt);
         let trial = step.trial(&vec![0.0; setting.unknowns.len()], self.functions.len()).ok()?;
         let mut values = step.stiffness(&step.tangents(&trial), pattern);
         let diagonal: Vec<usize> = (0..pattern.len()).filter_map(|i| pattern.place(i, i)).collect();
@@ -109,7 +109,7 @@ impl<const D: usize> Solver<D> {
     }
 
     fn found_cause(&self, setting: &Setting<D>, mut direct: Direct) -> Option<Cause> {
-        let (particles, h) = (&self.scene.body.particles, self.functions.grid().h);
+        let (particles, h) = (&self.scene.bodies.particles, self.functions.grid().h);
         let (cell, elements) = (h.powi(D as i32), &setting.elements);
         let sums = elements.sums(self.functions.len(), &particles.volume);
         let seen: Vec<f64> = sums.iter().map(|sum| sum.max(0.0) / cell).collect();

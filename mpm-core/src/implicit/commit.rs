@@ -27,13 +27,13 @@ impl<const D: usize> Solver<D> {
         self.ledger.work.particle_node_pairs += 2 * setting.elements.pairs() as u64;
         let whole: Vec<f64> = solution.u.iter().map(|u| u / place).collect();
         let obstacles = self.obstacles(self.ledger.time + dt);
-        let step = Step { obstacles: &obstacles, ..setting.step(&self.scene.body, dt) };
+        let step = Step { obstacles: &obstacles, ..setting.step(&self.scene.bodies, dt) };
         Ok(Some(step.trial(&whole, self.functions.len())?))
     }
 
     /// The places (m) to which a trial moves the particles.
     pub(super) fn places_after(&self, elements: &Elements<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let room = Room::new(self.functions.grid(), particles.half_size.map(|l| self.functions.beyond_wall(l)));
         let mut places = particles.position.clone();
         for (p, x) in places.iter_mut().enumerate() {
@@ -58,7 +58,7 @@ impl<const D: usize> Solver<D> {
         dt: f64,
     ) {
         let trial = &solution.trial;
-        let step = setting.step(&self.scene.body, dt);
+        let step = setting.step(&self.scene.bodies, dt);
         let mut out: Vec<SVector<f64, D>> =
             (trial.internal.iter().zip(&trial.resistance).zip(external)).map(|((f, g), e)| e - f - g).collect();
         for (out, push) in out.iter_mut().zip(setting.inertia.iter().flat_map(|i| &i.push)) {
@@ -105,7 +105,7 @@ impl<const D: usize> Solver<D> {
 
     /// Makes a trial the state of the body.
     pub(super) fn commit(&mut self, trial: &Trial<D>, places: &[[f64; D]], dt: f64) {
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         particles.position.copy_from_slice(places);
         for (p, f) in trial.f.iter().enumerate() {
             let change = determinant(f);
@@ -116,6 +116,6 @@ impl<const D: usize> Solver<D> {
                 particles.delta_f[p] *= stretch_of_volume::<f64, D>(averaged / change);
             }
         }
-        self.scene.body.update_stress(dt);
+        self.scene.bodies.update_stress(dt);
     }
 }

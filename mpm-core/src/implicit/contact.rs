@@ -157,7 +157,8 @@ pub(super) fn open_share<const D: usize>(
 /// Whether the stiffness of a scene is symmetric: friction that can slip has no potential.
 pub(super) fn is_symmetric<const D: usize>(scene: &Scene<D>) -> bool {
     let mut frictions = scene.contacts.iter().filter_map(RigidContact::friction);
-    scene.body.law.conservative() && frictions.all(|friction| friction.coefficient().is_none())
+    scene.bodies.each.iter().all(|body| body.law.conservative())
+        && frictions.all(|friction| friction.coefficient().is_none())
 }
 
 /// That a solver with `remedy` can have these contacts on `grid`.
@@ -194,7 +195,7 @@ impl<const D: usize> Solver<D> {
 
     /// Keeps the sticks of pushes at a step's end.
     pub(super) fn stick(&mut self, pushes: &[Push<D>]) {
-        let ids = &self.scene.body.particles.id;
+        let ids = &self.scene.bodies.particles.id;
         for (place, contact) in self.scene.contacts.iter_mut().enumerate() {
             let own = pushes.iter().filter(|push| push.by == place);
             contact.stick(own.map(|push| (ids[push.particle], push.stretch)));

@@ -39,7 +39,7 @@ impl<const D: usize> Solver<D> {
         let Some(inertia) = &setting.inertia else {
             return 0.0;
         };
-        let velocity = &self.scene.body.particles.velocity;
+        let velocity = &self.scene.bodies.particles.velocity;
         let momentum = inertia.mass.scatter(&setting.elements, |p| SVector::from(velocity[p]));
         let pairs = momentum.iter().zip(&inertia.mass.node);
         pairs.filter(|(_, m)| **m > 0.0).map(|(p, m)| 0.5 * p.norm_squared() / m).sum()
@@ -57,14 +57,14 @@ impl<const D: usize> Solver<D> {
             return Ok(());
         };
         let external = self.external(self.ledger.time, &setting.elements);
-        let step = setting.step(&self.scene.body, dt);
+        let step = setting.step(&self.scene.bodies, dt);
         let rest = vec![0.0; setting.unknowns.len()];
         let internal = step.trial(&rest, external.len())?.internal;
         let forces: Field<D> = external.iter().zip(&internal).map(|(e, f)| e - f).collect();
         let elements = &setting.elements;
         let held = |node: usize, axis: usize| self.held_change(node, axis, dt).map(|v| v / dt);
         let (acceleration, _) = inertia.mass.solve(elements, &forces, held)?;
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         for (p, a) in particles.acceleration.iter_mut().enumerate() {
             *a = elements.value(p, &acceleration).into();
         }
@@ -91,7 +91,7 @@ impl<const D: usize> Solver<D> {
             return Ok(());
         };
         let (elements, mass) = (&setting.elements, &inertia.mass);
-        let step: Step<D> = setting.step(&self.scene.body, dt);
+        let step: Step<D> = setting.step(&self.scene.bodies, dt);
         let penalty = step.penalty_forces(&solution.trial.u);
         let forces = solution.trial.internal.iter().zip(&penalty).zip(external);
         let impulse: Field<D> = forces.map(|((f, g), e)| (e - f - g) * dt).collect();
@@ -104,7 +104,7 @@ impl<const D: usize> Solver<D> {
         let lost = pairs.filter(|(_, m)| **m > least).map(|((v, shared), m)| v.norm_squared() * m - v.dot(shared));
         self.ledger.accumulated.lumping_loss += 0.5 * mass.lumped * lost.sum::<f64>();
         self.ledger.work.linear_iterations += iterations;
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         for (p, velocity) in particles.velocity.iter_mut().enumerate() {
             *velocity = (SVector::from(*velocity) + elements.value(p, &change)).into();
         }
@@ -133,7 +133,7 @@ impl<const D: usize> Solver<D> {
                 }
             }
         }
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         let velocities = particles.velocity.iter_mut();
         let columns = velocities.zip(&mut particles.acceleration);
         for (p, (velocity, before)) in columns.enumerate() {

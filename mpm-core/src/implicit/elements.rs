@@ -39,11 +39,15 @@ pub(crate) struct Elements<const D: usize> {
     rounding: f64,
 }
 
-/// The order of particles by element, stable within one.
-pub(crate) fn order<const D: usize>(functions_of: &dyn Interpolation<D>, domains: Domains<D>) -> Vec<u32> {
+/// The order of particles by `body` and element, stable within one.
+pub(crate) fn order<const D: usize>(
+    functions_of: &dyn Interpolation<D>,
+    domains: Domains<D>,
+    body: impl Fn(usize) -> usize,
+) -> Vec<u32> {
     let elements = of_domains(functions_of, domains);
     let mut order: Vec<u32> = (0..elements.len() as u32).collect();
-    order.sort_by_key(|p| elements[*p as usize]);
+    order.sort_by_key(|p| (body(*p as usize), elements[*p as usize]));
     order
 }
 

@@ -8,7 +8,7 @@ use super::inertia::{Inertia, Mass};
 use super::penalty::Penalty;
 use super::response::{Particle, Square, Tangent};
 use super::unknowns::{Pattern, Unknowns};
-use crate::body::{Body, check_jacobian};
+use crate::bodies::{Bodies, check_jacobian};
 use crate::error::Fault;
 use crate::parallel::{LIGHT, map};
 use crate::space::{determinant, embed};
@@ -21,9 +21,9 @@ const REGULAR: f64 = 1e-14;
 /// Elements whose matrices are held at once.
 const BATCH: usize = 256;
 
-/// A step of a body: what stays as it is at its start.
+/// A step of the bodies: what stays as it is at its start.
 pub(super) struct Step<'a, const D: usize> {
-    pub(super) body: &'a Body<D>,
+    pub(super) bodies: &'a Bodies<D>,
     pub(super) dt: f64,
     pub(super) elements: &'a Elements<D>,
     pub(super) unknowns: &'a Unknowns<D>,
@@ -57,14 +57,14 @@ pub(super) struct Trial<const D: usize> {
 impl<const D: usize> Step<'_, D> {
     /// A particle at the start of the step.
     fn particle(&self, p: usize) -> Particle<'_> {
-        let particles = &self.body.particles;
+        let particles = &self.bodies.particles;
         let j = match self.average {
             None => particles.jacobian[p],
             Some(_) => particles.j_bar[p],
         };
         Particle {
-            law: &self.body.law,
-            state: self.body.state(p),
+            law: &self.bodies.of(p).law,
+            state: self.bodies.of(p).state(p),
             dt: self.dt,
             volume: particles.reference_volume[p] * j,
         }
@@ -80,7 +80,7 @@ impl<const D: usize> Step<'_, D> {
         let mut u = vec![[0.0; D]; nodes];
         self.unknowns.spread(values, &mut u);
         let pushes = self.pushes(&u)?;
-        let count = self.body.particles.len();
+        let count = self.bodies.particles.len();
         let f = map(count, LIGHT, |p| elements.deformation(p, &u));
         let check = |values: &[f64]| -> Result<(), (usize, Fault)> {
             let bad = |(p, j): (usize, &f64)| check_jacobian(*j).err().map(|fault| (p, fault));
@@ -122,7 +122,7 @@ impl<const D: usize> Step<'_, D> {
 
     /// Actions of rigid bodies on particles at nodal increments (m).
     fn pushes(&self, u: &[[f64; D]]) -> Result<Vec<Push<D>>, (usize, Fault)> {
-        let particles = &self.body.particles;
+        let particles = &self.bodies.particles;
         contact::pushes(self.obstacles, self.elements, particles, &vectors(u))
     }
 
@@ -134,7 +134,7 @@ impl<const D: usize> Step<'_, D> {
         let mut change = vec![[0.0; D]; u.len()];
         self.unknowns.spread(correction, &mut change);
         let (u, change) = (vectors(u), vectors(&change));
-        let particles = &self.body.particles;
+        let particles = &self.bodies.particles;
         contact::open_share(self.obstacles, self.elements, particles, &u, &change)
     }
 

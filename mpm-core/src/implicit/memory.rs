@@ -13,7 +13,7 @@ use crate::scene::SavedStages;
 impl<const D: usize> Memory for Solver<D> {
     fn save(&self) -> Result<Saved, MemoryError> {
         Saved::of(&(
-            self.scene.body.save()?,
+            self.scene.bodies.save()?,
             &self.ledger,
             self.scene.save_stages()?,
             &self.direct.pattern,
@@ -41,7 +41,7 @@ impl<const D: usize> Solver<D> {
     /// Replaces the body by one that was saved, all of whose particles must be on the grid.
     fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let functions = self.functions.as_ref();
-        let body = &mut self.scene.body;
+        let body = &mut self.scene.bodies;
         body.restore(saved, |particles| check(functions, particles))
     }
 
@@ -49,7 +49,7 @@ impl<const D: usize> Solver<D> {
     pub(super) fn go_on_with(&mut self, saved: &Saved) -> Result<(), MemoryError> {
         let (body, sticks): (Saved, Vec<Vec<f64>>) = saved.read("a body with its sticks")?;
         let (functions, scene) = (self.functions.as_ref(), &mut self.scene);
-        scene.body.go_on_with(&body, |particles| check(functions, particles))?;
+        scene.bodies.go_on_with(&body, |particles| check(functions, particles))?;
         scene.take_sticks(&sticks);
         Ok(())
     }

@@ -44,7 +44,7 @@ pub use pieces::{AxisPieces, Pieces};
 pub use q8::Serendipity;
 pub use settings::{GHOST, Remedy, Settings, Stabilisation, TimeRule};
 
-use crate::body::Body;
+use crate::bodies::{Bodies, Body};
 use crate::error::{Cause, Error};
 use crate::ledger::Ledger;
 use crate::memory::Saved;
@@ -77,7 +77,7 @@ fn steps_of_load<const D: usize>(earlier: &[SVector<f64, D>], loads: &[SVector<f
     if rise > 0.0 { (whole / rise).sqrt().clamp(1.0, MOST_STEPS) } else { 1.0 }
 }
 
-/// The implicit solver for one body.
+/// The implicit solver.
 pub struct Solver<const D: usize> {
     scene: Scene<D>,
     settings: Settings,
@@ -128,7 +128,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
 
     fn condition(&self) -> f64 {
         let setting = self.setting(self.settings.dt);
-        let step = setting.step(&self.scene.body, self.settings.dt);
+        let step = setting.step(&self.scene.bodies, self.settings.dt);
         let rest = vec![0.0; setting.unknowns.len()];
         match step.trial(&rest, self.functions.len()) {
             Err(_) => f64::NAN,
@@ -140,7 +140,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     }
 
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
-        let p = &self.scene.body.particles;
+        let p = &self.scene.bodies.particles;
         if p.j_bar.is_empty() {
             return p.stress.clone();
         }
@@ -158,7 +158,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     fn field(&mut self, field: Field) -> Vec<f64> {
         match field {
             Field::PorePressure | Field::Porosity => Vec::new(),
-            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::PlasticStrain => self.scene.bodies.plastic_strain(),
             Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
             Field::AveragedMeanStress => {
                 let mean = self.field(Field::MeanStress);
@@ -169,7 +169,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     }
 
     fn body(&self) -> Result<Saved, Error> {
-        Ok(self.scene.hand_over(self.scene.body.save()?)?)
+        Ok(self.scene.hand_over(self.scene.bodies.save()?)?)
     }
 
     fn take_over(&mut self, body: &Saved) -> Result<(), Error> {
@@ -181,9 +181,9 @@ impl<const D: usize> Simulation<D> for Solver<D> {
 
 impl<const D: usize> Setting<D> {
     /// The equations of a step of `dt` (s) of the body that this setting was made for.
-    fn step<'a>(&'a self, body: &'a Body<D>, dt: f64) -> Step<'a, D> {
+    fn step<'a>(&'a self, bodies: &'a Bodies<D>, dt: f64) -> Step<'a, D> {
         Step {
-            body,
+            bodies,
             dt,
             elements: &self.elements,
             unknowns: &self.unknowns,
@@ -198,7 +198,7 @@ impl<const D: usize> Setting<D> {
 impl<const D: usize> Solver<D> {
     /// The functions at the particles, and the average.
     fn averaging(&self) -> (Elements<D>, Average) {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let elements = Elements::new(self.functions.as_ref(), &self.originals, Domains::of(particles));
         let sharp = self.settings.remedy == Remedy::FbarConsistent;
         let average = Average::new(&elements, self.functions.len(), &particles.volume, sharp);
@@ -207,7 +207,7 @@ impl<const D: usize> Solver<D> {
 
     /// Setting of a step of `dt` (s) from the present state.
     fn setting(&self, dt: f64) -> Setting<D> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let (elements, average) = self.averaging();
         let mut sizes = Vec::new();
         let within = Domains::of(particles).within(&mut sizes);
@@ -248,14 +248,21 @@ impl<const D: usize> Solver<D> {
     /// Shares of the elastic shear stiffness that the particles of a body that yields keep along the increments of the
     /// part before: a ghost penalty of the elastic stiffness would resist flow. Empty where nothing has yielded.
     fn kept_stiffness(&self, elements: &Elements<D>, dt: f64) -> Vec<f64> {
-        let (body, mu) = (&self.scene.body, self.moduli.mu);
-        if self.advance.is_empty() || body.plastic_strain().iter().all(|strain| *strain == 0.0) {
-            return Vec::new();
+        let (bodies, mu) = (&self.scene.bodies, self.moduli.mu);
+        let flows = !self.advance.is_empty() && bodies.plastic_strain().iter().any(|strain| *strain != 0.0);
+        if !flows {
+            // Of several bodies, each has the share that is its own.
+            let several = bodies.each.iter().filter(|_| bodies.each.len() > 1);
+            let share = |body: &Body| (start::moduli_of(body.law.as_ref(), dt).mu / mu).clamp(FLOWS, 1.0);
+            return several.flat_map(|body| vec![share(body); body.range().len()]).collect();
         }
         let u: Vec<[f64; D]> = self.advance.iter().map(|rate| rate.map(|rate| rate * dt)).collect();
-        let stress = |p: usize, f: &Matrix3<f64>| body.law.stress(f, dt, body.state(p)).to_matrix();
+        let stress = |p: usize, f: &Matrix3<f64>| {
+            let body = bodies.of(p);
+            body.law.stress(f, dt, body.state(p)).to_matrix()
+        };
         let deviator = |m: Matrix3<f64>| (m - Matrix3::identity() * (m.trace() / 3.0)).norm();
-        map(body.particles.len(), LIGHT, |p| {
+        map(bodies.particles.len(), LIGHT, |p| {
             let f = embed(&elements.deformation(p, &u));
             let change = deviator(stress(p, &f) - stress(p, &Matrix3::identity()));
             let elastic = mu * deviator(f + f.transpose());
@@ -265,16 +272,17 @@ impl<const D: usize> Solver<D> {
 
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
-        let order = elements::order(self.functions.as_ref(), Domains::of(&self.scene.body.particles));
+        let bodies = &self.scene.bodies;
+        let order = elements::order(self.functions.as_ref(), Domains::of(&bodies.particles), |p| bodies.place_of(p));
         if !order.is_sorted() {
-            self.scene.body.permute(&order);
+            self.scene.bodies.permute(&order);
             self.ledger.work.sorts += 1;
         }
     }
 
     /// The forces of the loads at `time` (s) on the nodes (N).
     fn external(&mut self, time: f64, elements: &Elements<D>) -> Vec<SVector<f64, D>> {
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
             load.add(time, particles);
@@ -296,7 +304,7 @@ impl<const D: usize> Solver<D> {
     /// Norm of the forces (N) that rounding of stresses causes, by some last bits of the modulus of pressure waves: a
     /// nearly incompressible body has no smaller residual.
     fn rounding(&self, elements: &Elements<D>) -> f64 {
-        let volume = &self.scene.body.particles.volume;
+        let volume = &self.scene.bodies.particles.volume;
         let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
         elements.rounding(self.functions.len(), volume, modulus)
     }
@@ -321,7 +329,7 @@ impl<const D: usize> Solver<D> {
         let mut linear = Linear { direct: &mut self.direct, ledger: &mut self.ledger };
         linear.analyse(&setting.pattern)?;
         let mut system = System {
-            step: setting.step(&self.scene.body, place * dt),
+            step: setting.step(&self.scene.bodies, place * dt),
             settings: &self.settings,
             rounding,
             external: &driving,
@@ -349,7 +357,7 @@ impl<const D: usize> Solver<D> {
             Failure::Singular(_) => self.cause(false),
             Failure::Particle(..) | Failure::Lost(..) => Cause::Unknown,
         };
-        failure.error(&self.ledger, &self.scene.body.particles.id, cause)
+        failure.error(&self.ledger, &self.scene.bodies.particles.id, cause)
     }
 }
 

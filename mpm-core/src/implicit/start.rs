@@ -28,24 +28,44 @@ impl<const D: usize> Solver<D> {
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
         let averages = settings.remedy != Remedy::None;
+        let laws = || scene.bodies.each.iter().map(|body| &body.law);
+        let one = !averages || scene.bodies.each.len() == 1;
         require(
-            scene.body.law.conservative() || !averages,
+            one,
+            "bodies that a variational F-bar averages over",
+            laws().count() as f64,
+            "1: others take remedy none",
+        )?;
+        let slides = scene.bodies.each.iter().filter(|body| body.slides.is_some()).count();
+        require(
+            slides == 0,
+            "bodies that slide in an implicit run",
+            slides as f64,
+            "0: an explicit solver has contact",
+        )?;
+        require(
+            laws().all(|law| law.conservative()) || !averages,
             "variational F-bar with a law without a potential",
             1.0,
             "remedy none: the law has a rate of stress or a viscosity",
         )?;
         functions.offers(settings.stabilisation)?;
-        let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
+        let moduli: Vec<Moduli> = laws().map(|law| moduli_of(law.as_ref(), settings.dt)).collect();
+        let stiffness = |m: &Moduli| m.lambda + 2.0 * m.mu;
+        let greatest = moduli.iter().max_by(|a, b| stiffness(a).total_cmp(&stiffness(b)));
+        let least = moduli.iter().fold(f64::INFINITY, |least, m| least.min(m.mu));
+        let moduli = greatest.copied().unwrap_or(Moduli { lambda: 0.0, mu: 0.0 });
         let inertia_alone = settings.rule != TimeRule::Static && settings.stabilisation == Stabilisation::None;
         require(
-            moduli.mu > 0.0 || inertia_alone,
+            least > 0.0 || inertia_alone,
             "shear modulus of a quasi-static or stabilised run",
-            moduli.mu,
+            least,
             "positive (Pa): a fluid has no static equilibrium",
         )?;
         scene.check_half_size()?;
-        let particles = &mut scene.body.particles;
-        let mut ledger = Ledger::new(particles.len(), functions.len(), scene.constraints.len());
+        let particles = &mut scene.bodies.particles;
+        let mut ledger =
+            Ledger::new([particles.len(), functions.len()], scene.constraints.len(), scene.bodies.each.len());
         ledger.convergence = Some(Convergence::default());
         let room = Room::new(&scene.grid, particles.half_size.map(|l| functions.beyond_wall(l)));
         for (k, x) in particles.position.iter_mut().enumerate() {

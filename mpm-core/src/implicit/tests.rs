@@ -68,7 +68,7 @@ fn filled<const D: usize, M: Law + 'static>(axes: [Axis; D], cells: usize, place
         (0..along.pow(D as u32)).map(|k| std::array::from_fn(|a| at(k / along.pow(a as u32) % along))).collect();
     let volume = (0.5 * H).powi(D as i32);
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
-    Scene::new(grid, Body::new(shared(law), particles).unwrap())
+    Scene::new(grid, Bodies::new(shared(law), particles).unwrap())
 }
 
 fn places_of<I: Interpolation<D>, const D: usize>() -> Places {
@@ -85,13 +85,13 @@ fn patch<const D: usize, I: Interpolation<D>, M: Law + Clone + 'static>(
     stabilisation: Stabilisation,
 ) -> Vec<SymmetricTensor> {
     let mut scene = full::<D, _>(CELLS, places_of::<I, D>(), law.clone());
-    let p = &scene.body.particles;
+    let p = &scene.bodies.particles;
     let from_centre = |x: &[f64; D]| SVector::from(*x).add_scalar(-CENTRE);
     let places = p.position.iter().copied();
     let within = places.filter(|x| from_centre(x).norm() <= radius);
     let volume = p.reference_volume[0];
     let some = Particles::new(within.collect(), volume, 1000.0, p.half_size).unwrap();
-    scene.body = Body::new(shared(law.clone()), some).unwrap();
+    scene.bodies = Bodies::new(shared(law.clone()), some).unwrap();
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).stabilised(stabilisation) };
     let mut solver = Solver::<D>::new::<I>(scene.constrain(Affine { gradient, centre: CENTRE }), settings).unwrap();
     solver.step().unwrap();
@@ -311,11 +311,11 @@ fn with_a_loner() -> Scene<2> {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
     let axis = Axis::bounded(0.0, CELLS + 2, (Side::Wall, Side::Open));
     let mut scene = filled([axis; 2], CELLS, Places::Uniform, law);
-    let p = &scene.body.particles;
+    let p = &scene.bodies.particles;
     let mut positions = p.position.clone();
     positions.push([H * (CELLS as f64 + 0.1), H * 2.1]);
     let more = Particles::new(positions, p.reference_volume[0], 1000.0, p.half_size).unwrap();
-    scene.body = Body::new(law, more).unwrap();
+    scene.bodies = Bodies::new(law, more).unwrap();
     scene.constrain(Wall::new(0, End::Lo, WallKind::Fixed))
 }
 

@@ -25,7 +25,7 @@ impl<const D: usize> Solver<D> {
             keep_before_walls(self.solid_space.functions.grid(), x, half_size);
         }
         self.observe(setting, &trial, dt);
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         let before = std::mem::replace(&mut particles.position, places);
         if !self.pores.slope.is_empty() {
             self.pores.slope = trial.slope;
@@ -42,13 +42,13 @@ impl<const D: usize> Solver<D> {
             if *place == Place::Unseen { f64::NAN } else { *p }
         };
         self.nodal_pressure = places.map(seen).collect();
-        self.scene.body.update_stress(dt);
+        self.scene.bodies.update_stress(dt);
         Ok(())
     }
 
     /// The places (m) to which a trial moves the particles.
     fn places_after(&self, setting: &Setting<D>, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
-        let mut places = self.scene.body.particles.position.clone();
+        let mut places = self.scene.bodies.particles.position.clone();
         let functions = &self.solid_space.functions;
         for (p, x) in places.iter_mut().enumerate() {
             let (nodes, w, _) = setting.solid.seen(p);
@@ -67,7 +67,7 @@ impl<const D: usize> Solver<D> {
     /// move (Coombs et al. 2020, doi:10.1016/j.cma.2019.112622): the mean extents of what becomes of the box. Other
     /// functions know no domain, which then stretches as the particle does. Either is brought to the particle's volume.
     fn domains_after(&self, trial: &Trial<D>) -> Result<Vec<[f64; D]>, Failure> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let space = &self.solid_space;
         let mut functions = Functions::new();
         let mut domains = self.pores.half_size.clone();
@@ -134,7 +134,7 @@ impl<const D: usize> Solver<D> {
                 outflow -= lacking;
             }
         }
-        let volume = &self.scene.body.particles.volume;
+        let volume = &self.scene.bodies.particles.volume;
         let changes = trial.f.iter().zip(volume);
         let change: f64 = changes.map(|(f, v)| v * (determinant(f) - 1.0)).sum();
         let inflow: f64 = setting.inflow.iter().sum();

@@ -38,7 +38,7 @@ impl<const D: usize> Memory for Solver<D> {
 impl<const D: usize> Solver<D> {
     /// Body and pores as bytes.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
-        Saved::of(&(self.scene.body.save()?, &self.pores))
+        Saved::of(&(self.scene.bodies.save()?, &self.pores))
     }
 
     /// Replaces body and pores by those that were saved, all of whose particles must be on the grid.
@@ -53,7 +53,7 @@ impl<const D: usize> Solver<D> {
             require(fits, "half_size", *l, "positive, of means at most half a cell (m)")?;
         }
         let half_size = &pores.half_size;
-        self.scene.body.restore(&body, |particles| {
+        self.scene.bodies.restore(&body, |particles| {
             for (x, l) in particles.position.iter().zip(half_size) {
                 let room = Room::new(grid, l.map(|l| functions.beyond_wall(l)));
                 let inside = room.place(&mut x.clone()).is_ok();

@@ -123,14 +123,14 @@ impl<const D: usize> Simulation<D> for Solver<D> {
 
     /// The effective stress.
     fn force_stress(&mut self) -> Vec<SymmetricTensor> {
-        self.scene.body.particles.stress.clone()
+        self.scene.bodies.particles.stress.clone()
     }
 
     fn field(&mut self, field: Field) -> Vec<f64> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let solid = 1.0 - self.water.porosity;
         match field {
-            Field::PlasticStrain => self.scene.body.plastic_strain(),
+            Field::PlasticStrain => self.scene.bodies.plastic_strain(),
             Field::MeanStress | Field::AveragedMeanStress => {
                 particles.stress.iter().map(SymmetricTensor::mean).collect()
             }
@@ -155,19 +155,19 @@ impl<const D: usize> Solver<D> {
     }
 
     fn equations<'a>(&'a self, setting: &'a Setting<D>, dt: f64) -> Step<'a, D> {
-        Step { body: &self.scene.body, water: &self.water, settings: &self.settings, dt, setting }
+        Step { bodies: &self.scene.bodies, water: &self.water, settings: &self.settings, dt, setting }
     }
 
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let domains = self.pores.domains(particles);
         let [of_solid, of_water] =
             [&self.solid_space, &self.water_space].map(|s| of_domains(s.functions.as_ref(), domains));
         let mut order: Vec<u32> = (0..particles.len() as u32).collect();
         order.sort_by_key(|p| (of_solid[*p as usize], of_water[*p as usize]));
         if !order.is_sorted() {
-            self.scene.body.permute(&order);
+            self.scene.bodies.permute(&order);
             self.pores.permute(&order);
             self.ledger.work.sorts += 1;
         }
@@ -192,13 +192,13 @@ impl<const D: usize> Solver<D> {
             }
             own
         };
-        let positions = &self.scene.body.particles.position;
+        let positions = &self.scene.bodies.particles.position;
         positions.iter().enumerate().map(of).collect()
     }
 
     /// The functions of displacement and pressure at the particles.
     fn elements(&self) -> [Elements<D>; 2] {
-        let domains = self.pores.domains(&self.scene.body.particles);
+        let domains = self.pores.domains(&self.scene.bodies.particles);
         [&self.solid_space, &self.water_space]
             .map(|space| Elements::new(space.functions.as_ref(), &space.originals, domains))
     }
@@ -219,7 +219,7 @@ impl<const D: usize> Solver<D> {
 
     /// Setting of a step of `dt` (s) from the present state, under forces of loads on the particles (N).
     fn setting(&self, dt: f64, on_particles: Vec<[f64; D]>) -> Result<Setting<D>, Failure> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let spaces = [&self.solid_space, &self.water_space];
         let [solid, water] = self.elements();
         let unknowns = self.unknowns([&solid, &water], dt);
@@ -284,7 +284,7 @@ impl<const D: usize> Solver<D> {
             return before;
         }
         let functions = &self.water_space.functions;
-        let told = unknowns::extrapolated(water, functions.as_ref(), &self.scene.body.particles, &self.pores);
+        let told = unknowns::extrapolated(water, functions.as_ref(), &self.scene.bodies.particles, &self.pores);
         for (node, place) in unknowns.pressure.iter().enumerate() {
             if *place != Place::Unseen {
                 let known = self.nodal_pressure[node];
@@ -296,7 +296,7 @@ impl<const D: usize> Solver<D> {
 
     /// Volumes of water (m³) that sources give to the nodes in a step of `dt` (s); none without sources.
     fn inflow(&self, water: &Elements<D>, dt: f64) -> Vec<f64> {
-        let particles = &self.scene.body.particles;
+        let particles = &self.scene.bodies.particles;
         let span = [self.ledger.time, self.ledger.time + dt];
         let mut nodes = Vec::new();
         for source in &self.water.sources {
@@ -318,7 +318,7 @@ impl<const D: usize> Solver<D> {
         match self.settings.predictor {
             Predictor::Zero => vec![0.0; nodes],
             Predictor::Particles => {
-                let particles = &self.scene.body.particles;
+                let particles = &self.scene.bodies.particles;
                 unknowns::mapped(&setting.water, nodes, particles, &self.pores)
             }
         }
@@ -327,7 +327,7 @@ impl<const D: usize> Solver<D> {
     /// A part of a step, of `dt` (s).
     fn part(&mut self, dt: f64) -> Result<(), Failure> {
         self.sort();
-        let particles = &mut self.scene.body.particles;
+        let particles = &mut self.scene.bodies.particles;
         particles.external_force.fill([0.0; D]);
         for load in &self.scene.loads {
             load.add(self.ledger.time + dt, particles);
@@ -339,7 +339,13 @@ impl<const D: usize> Solver<D> {
         let mut linear = Linear { direct: &mut self.direct, ledger: &mut self.ledger };
         linear.analyse(&setting.pattern)?;
         let mut system = System {
-            step: Step { body: &self.scene.body, water: &self.water, settings: &self.settings, dt, setting: &setting },
+            step: Step {
+                bodies: &self.scene.bodies,
+                water: &self.water,
+                settings: &self.settings,
+                dt,
+                setting: &setting,
+            },
             rounding,
             linear,
             scales: Vec::new(),
@@ -352,14 +358,14 @@ impl<const D: usize> Solver<D> {
 
     /// Norm of the out-of-balance forces (N) that the last bits of the stresses leave.
     fn rounding(&self, setting: &Setting<D>) -> f64 {
-        let volume = &self.scene.body.particles.volume;
+        let volume = &self.scene.bodies.particles.volume;
         let modulus = self.moduli.lambda + 2.0 * self.moduli.mu;
         let nodes = self.solid_space.functions.len();
         setting.solid.rounding(nodes, volume, modulus)
     }
 
     fn error(&self, failure: Failure) -> Error {
-        let ids = &self.scene.body.particles.id;
+        let ids = &self.scene.bodies.particles.id;
         failure.error(&self.ledger, ids, Cause::Unknown)
     }
 }

@@ -56,7 +56,7 @@ impl<const D: usize> Solver<D> {
         unknowns: &Unknowns<D>,
         external: &mut [SVector<f64, D>],
     ) -> Result<(), Failure> {
-        let (particles, space) = (&self.scene.body.particles, &self.solid_space);
+        let (particles, space) = (&self.scene.bodies.particles, &self.solid_space);
         let seen = |node: usize| unknowns.displacement[node][0] != Place::Unseen;
         let area = face.area(&particles.half_size);
         let of_corner = traction * (area / Face::<D>::CORNERS as f64);
@@ -78,7 +78,7 @@ impl<const D: usize> Solver<D> {
 
     /// The corners of a drained face.
     fn drain(&self, face: &Face<D>, penalty: f64, unknowns: &Unknowns<D>) -> Result<Vec<Drain>, Failure> {
-        let (particles, space) = (&self.scene.body.particles, &self.water_space);
+        let (particles, space) = (&self.scene.bodies.particles, &self.water_space);
         let seen = |node: usize| unknowns.pressure[node] != Place::Unseen;
         let corners = face.corners(space, seen, particles, &self.pores)?;
         let of = |corner: Corner| {

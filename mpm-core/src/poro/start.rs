@@ -80,7 +80,8 @@ impl<const D: usize> Solver<D> {
         water: Water<D>,
         settings: Settings,
     ) -> Result<Self, Error> {
-        settings.check(scene.body.law.conservative())?;
+        let law = &scene.bodies.require_one("bodies in a run with water")?.law;
+        settings.check(law.conservative())?;
         let contacts = scene.contacts.len();
         require(
             contacts == 0,
@@ -89,22 +90,22 @@ impl<const D: usize> Solver<D> {
             "none: rigid bodies are constraints in such a scene",
         )?;
         held::check(&scene.constraints)?;
-        let moduli = moduli_of(scene.body.law.as_ref(), settings.dt);
+        let moduli = moduli_of(law.as_ref(), settings.dt);
         positive(moduli.mu, "shear modulus of a body with water", "positive (Pa)")?;
         let mut drained = vec![false; water_space.functions.len()];
         water_space.functions.for_each_node(&mut |node, place| drained[node] = (water.drained)(&place));
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
-        water.check(drains, scene.body.law.porosity())?;
+        water.check(drains, law.porosity())?;
         for face in &water.faces {
-            face.check(scene.body.particles.len())?;
+            face.check(scene.bodies.particles.len())?;
         }
         let held = held::components(solid_space.functions.as_ref(), &scene)?;
         let tied = ties(&water.plates, solid_space.functions.as_ref(), &held)?;
         scene.check_half_size()?;
-        let particles = &mut scene.body.particles;
+        let particles = &mut scene.bodies.particles;
         let nodes = solid_space.functions.len() + water_space.functions.len();
-        let mut ledger = Ledger::new(particles.len(), nodes, scene.constraints.len());
+        let mut ledger = Ledger::new([particles.len(), nodes], scene.constraints.len(), scene.bodies.each.len());
         ledger.convergence = Some(Convergence::default());
         let mut half_size = Vec::with_capacity(particles.len());
         for k in 0..particles.len() {

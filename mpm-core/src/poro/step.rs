@@ -4,7 +4,7 @@ use super::response::{Particle, Slopes};
 use super::settings::{PressureSpace, Settings, Tangent};
 use super::unknowns::Unknowns;
 use super::water::Water;
-use crate::body::{Body, check_jacobian};
+use crate::bodies::{Bodies, check_jacobian};
 use crate::error::Fault;
 use crate::implicit::Penalty;
 use crate::implicit::algebra::{dot, norm};
@@ -68,7 +68,7 @@ impl Drain {
 
 /// A step of a body.
 pub(super) struct Step<'a, const D: usize> {
-    pub(super) body: &'a Body<D>,
+    pub(super) bodies: &'a Bodies<D>,
     pub(super) water: &'a Water<D>,
     pub(super) settings: &'a Settings,
     pub(super) dt: f64,
@@ -104,10 +104,10 @@ pub(super) struct Trial<const D: usize> {
 
 impl<const D: usize> Step<'_, D> {
     fn particle(&self, p: usize) -> Particle<'_, D> {
-        let particles = &self.body.particles;
+        let particles = &self.bodies.particles;
         Particle {
-            law: &self.body.law,
-            state: self.body.state(p),
+            law: &self.bodies.of(p).law,
+            state: self.bodies.of(p).state(p),
             water: self.water,
             rate: self.settings.volume_rate,
             dt: self.dt,
@@ -131,7 +131,7 @@ impl<const D: usize> Step<'_, D> {
     pub(super) fn trial(&self, values: &[f64]) -> Result<Trial<D>, (usize, Fault)> {
         let setting = self.setting;
         let (u, p) = setting.unknowns.spread(values);
-        let particles = &self.body.particles;
+        let particles = &self.bodies.particles;
         let count = particles.len();
         let gathered = map(count, LIGHT, |k| {
             let (nodes, w, dw) = setting.water.seen(k);
@@ -342,7 +342,7 @@ impl<const D: usize> Step<'_, D> {
                 }
             }
             let own = setting.fluctuations.get(k);
-            let penalty = projection * self.body.particles.volume[k];
+            let penalty = projection * self.bodies.particles.volume[k];
             for (j, g) in dm.iter().enumerate() {
                 let flow: [f64; D] = from_fn(|i| dot(&s.mobility[i], g));
                 for (i, f) in dm.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::basis::{Gimp, Linear};
-use crate::body::Body;
+use crate::bodies::Bodies;
 use crate::error::Fault;
 use crate::fixture::{Affine, lattice};
 use crate::grid::{Axis, Grid, Side};
@@ -65,7 +65,7 @@ fn standing<const D: usize, M: Law + 'static>(
         let both = axis + 1 < D;
         [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
     });
-    Scene::new(grid, Body::new(shared(law), particles).unwrap()).constrain_all(rollers.flatten())
+    Scene::new(grid, Bodies::new(shared(law), particles).unwrap()).constrain_all(rollers.flatten())
 }
 
 fn straight<const D: usize>(x: &[f64; D]) -> ([f64; D], SMatrix<f64, D, D>) {
@@ -87,7 +87,7 @@ fn uppermost<const D: usize>(x: &[f64; D]) -> bool {
 /// A column under a traction on its top, through which its water leaves by a penalty.
 fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> Solver<D> {
     let scene = standing::<D, _>(porous(), straight);
-    let particles = &scene.body.particles;
+    let particles = &scene.bodies.particles;
     let top = (D - 1, End::Hi);
     let mut force = [0.0; D];
     force[D - 1] = -traction;
@@ -114,7 +114,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
     let scene =
-        Scene::new(grid, Body::new(shared(law), particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
+        Scene::new(grid, Bodies::new(shared(law), particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
     let water = Water::new(POROSITY, kozeny_carman());
     // One held node fixes a pressure that nothing else does.
     let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
@@ -133,7 +133,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     // And has the domains of a body that starts so.
     let begun = p.reference.iter().map(|x| {
         let particles = Particles::new(vec![*x], volume, 1000.0, [0.25 * H; D]).unwrap();
-        let mut body = Body::new(law, particles.deformed(|x| ((f * SVector::from(*x)).into(), f))).unwrap();
+        let mut body = Bodies::new(law, particles.deformed(|x| ((f * SVector::from(*x)).into(), f))).unwrap();
         start::begin(&I::on(grid).unwrap(), &mut body.particles, 0).unwrap()
     });
     for (begun, stepped) in begun.zip(&solver.pores.half_size) {
@@ -202,7 +202,7 @@ fn what_is_not_allowed_is_refused_by_name() {
     }
     let dry = Conductivity::Constant(0.0);
     refused(Water::new(POROSITY, dry).drained(|_| true), settings, "conductivity of a body that drains");
-    let face = Face::drained(&column().body.particles, topmost, (0, End::Hi), 1.0);
+    let face = Face::drained(&column().bodies.particles, topmost, (0, End::Hi), 1.0);
     refused(Water::new(POROSITY, dry).face(face), settings, "conductivity of a body that drains");
     assert!(Solver::<1>::new::<Means<1>>(column(), Water::new(POROSITY, dry), settings).is_ok());
     let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";

@@ -9,7 +9,7 @@ use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::{Settings, Solver, contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{End, Gravity, LocalDamping};
-use mpm_core::{Axis, Body, Error, Fault, Grid, Part, Particles, Scene, Simulation};
+use mpm_core::{Axis, Bodies, Error, Fault, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
 const SPACING: f64 = 0.5 * H;
@@ -69,7 +69,7 @@ fn scene<const D: usize>(particles: Particles<D>, contacts: Vec<RigidContact<D>>
     let law = law();
     let dt = courant_time_step(CFL, H, law.wave_speed(DENSITY));
     let grid = Grid::new(H, [Axis::open(0.0, 24); D]).unwrap();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap());
+    let scene = Scene::new(grid, Bodies::new(law, particles).unwrap());
     (contacts.into_iter().fold(scene, Scene::contact), Settings::new(dt))
 }
 

@@ -6,7 +6,7 @@ use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::{Settings, Solver, contact_cfl};
 use mpm_core::material::{HenckyJ2, Law, Strength};
 use mpm_core::stage::{End, Wall, WallKind};
-use mpm_core::{Axis, Body, Grid, Part, Particles, Scene, Side, Simulation};
+use mpm_core::{Axis, Bodies, Grid, Part, Particles, Scene, Side, Simulation};
 use std::f64::consts::PI;
 
 const H: f64 = 0.05;
@@ -47,7 +47,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp>) {
     let upright = Axis::bounded(0.0, CELLS[1] + 3, (Side::Wall, Side::Open));
     let wall = |axis, end, kind| Wall::new(axis, end, kind);
     let grid = Grid::new(H, [Axis::walls(0.0, CELLS[0]), upright]).unwrap();
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap())
+    let scene = Scene::new(grid, Bodies::new(law, particles).unwrap())
         .constrain(wall(1, End::Lo, WallKind::Fixed))
         .constrain(wall(0, End::Lo, WallKind::Roller))
         .constrain(wall(0, End::Hi, WallKind::Roller))

@@ -6,7 +6,7 @@ use mpm_core::material::{
 };
 use mpm_core::monitor::Accumulated;
 use mpm_core::number::Dual;
-use mpm_core::{Body, Particles, SymmetricTensor};
+use mpm_core::{Bodies, Particles, SymmetricTensor};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
@@ -100,7 +100,7 @@ fn tangent<M: Law>(law: &M, delta_f: &Matrix3<f64>, dt: f64, state: &M::State) -
 /// The particles of a body, eight and three more, are as each of them alone, over two steps.
 fn a_body_is_as_its_particles<M: Law + Copy + 'static>(law: &M, first: &[Matrix3<f64>; 8], second: &[Matrix3<f64>; 8]) {
     let particles = Particles::<3>::new(vec![[0.0; 3]; 11], 1.0, 1.0, [0.5; 3]).unwrap();
-    let mut body = Body::new(shared(*law), particles).unwrap();
+    let mut body = Bodies::new(shared(*law), particles).unwrap();
     let mut alone = [law.at_rest(&Matrix3::identity()); 11];
     for step in [first, second] {
         for (k, (stress, state)) in alone.iter_mut().enumerate() {

@@ -2,10 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
+mod averages;
+mod bodies;
 mod contact;
 mod execution;
 mod footing;
 mod laws;
+mod mapping;
 mod memory;
 mod modes;
 mod rigid_nodes;

@@ -11,7 +11,7 @@ use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::stage::{
     BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, RigidNodes, Wall, WallKind,
 };
-use mpm_core::{Axis, Basis, Body, Grid, Law, Part, Scene, Side, Simulation};
+use mpm_core::{Axis, Basis, Bodies, Grid, Law, Part, Scene, Side, Simulation};
 
 const H: f64 = 0.5;
 const CELLS: usize = 20;
@@ -43,7 +43,7 @@ fn scene<M: Law + 'static, T>(
     let drag = Friction::new(0.3, 0.5).unwrap();
     let upright = Axis::bounded(0.0, 8, (Side::Wall, Side::Open));
     let grid = Grid::new(H, [Axis::periodic(0.0, CELLS), upright]).unwrap();
-    let scene = Scene::new(grid, Body::new(shared(law), particles).unwrap())
+    let scene = Scene::new(grid, Bodies::new(shared(law), particles).unwrap())
         .load(BodyForce(Box::new(|x: &[f64; 2], t| [100.0 * (15.0 * t).cos(), -0.2 * x[0]])))
         .load(pull)
         .constrain(Wall::new(1, End::Lo, WallKind::Roller))

@@ -8,7 +8,7 @@ use model::{Bloch, CELLS, H, KINDS, Kind, LENGTH, Moving, UNSEEN, Wave, add, noi
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::{Remedy, Solver};
-use mpm_core::{Basis, Body, Particles, Simulation};
+use mpm_core::{Basis, Bodies, Particles, Simulation};
 use nalgebra::Complex;
 use std::f64::consts::TAU;
 
@@ -109,18 +109,18 @@ fn waves_at_rest<const S: usize, B: Basis<S> + 'static>(n: usize) {
     let (tau, amplitude, steps) = (0.3, 1e-7 * C, 2000);
     for kind in KINDS {
         let (mut scene, settings) = scene::<1>(n, kind, tau, 0.0);
-        let mut unseen = vec![0.0; scene.body.particles.len()];
+        let mut unseen = vec![0.0; scene.bodies.particles.len()];
         for axis in &axes {
             let (phi, _) = axis.seen(0.0);
             let mut null = noise(n, 0);
             let share = product(&phi, &null) / product(&phi, &phi).re;
             add(&mut null, -share, &phi);
-            for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
+            for (id, v) in scene.bodies.particles.velocity.iter_mut().enumerate() {
                 unseen[id] += amplitude * axis.carried(&null, id).re;
                 v[0] += amplitude * axis.carried(&phi, id).re;
             }
         }
-        for (v, unseen) in scene.body.particles.velocity.iter_mut().zip(&unseen) {
+        for (v, unseen) in scene.bodies.particles.velocity.iter_mut().zip(&unseen) {
             v[0] += unseen;
         }
         let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
@@ -163,11 +163,11 @@ fn crossing_is_linear<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f64
     let axes = [1, 3, 7].map(|m| Bloch::<S, B>::new(n, theta(m)));
     for kind in KINDS {
         let (mut scene, settings) = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
-        for x in &mut scene.body.particles.position {
+        for x in &mut scene.bodies.particles.position {
             x[0] += start;
         }
         let mut waves = axes.each_ref().map(|_| Moving::new(noise(n, 3)));
-        for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
+        for (id, v) in scene.bodies.particles.velocity.iter_mut().enumerate() {
             v[0] = move_of_step / settings.dt;
             for (axis, wave) in axes.iter().zip(&waves) {
                 v[0] += amplitude * C * axis.carried(&wave.velocity, id).re;
@@ -269,11 +269,11 @@ fn unseen_pressure_pushes<const S: usize, B: Basis<S> + 'static>() {
     let strain = 1e-6;
     let push = |kind| -> f64 {
         let (mut scene, settings) = scene::<1>(2, kind, 0.3, 0.0);
-        let Body { law, mut particles, .. } = scene.body;
+        let Bodies { each, mut particles } = scene.bodies;
         for (id, delta_f) in particles.delta_f.iter_mut().enumerate() {
             delta_f[(0, 0)] += strain * axis.carried(&null, id).re;
         }
-        scene.body = Body::new(law, particles).unwrap();
+        scene.bodies = Bodies::new(each[0].law.clone(), particles).unwrap();
         let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();
         solver.step().unwrap();
         let speeds = solver.particles().velocity.iter().map(|v| v[0].abs());
@@ -312,7 +312,7 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         1e-6 * C * (f64::from(state) / f64::from(u32::MAX) - 0.5)
     };
-    let p = &mut scene.body.particles;
+    let p = &mut scene.bodies.particles;
     for (v, x) in p.velocity.iter_mut().zip(&p.position) {
         *v = [speed * C * (TAU * x[1] / LENGTH).sin() + random(), random()];
     }
@@ -368,7 +368,7 @@ fn shortest_wave_is_fed<const S: usize, B: Basis<S> + 'static>(n: usize, mean: f
     let (tau, amplitude, steps) = (0.3, 1e-8 * C, 200);
     for kind in [Kind::Total, Kind::Rate, Kind::Consistent] {
         let (mut scene, settings) = scene::<1>(n, kind, tau, mean * DENSITY * C * C);
-        for (id, v) in scene.body.particles.velocity.iter_mut().enumerate() {
+        for (id, v) in scene.bodies.particles.velocity.iter_mut().enumerate() {
             v[0] = amplitude * axis.carried(&phi, id).re;
         }
         let mut solver = Solver::<1, S, B>::new(scene, settings).unwrap();

@@ -3,7 +3,7 @@
 use mpm_core::explicit::remedy::{Fbar, Form, Onto, Standard};
 use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Axis, Body, Grid, Particles, Scene};
+use mpm_core::{Axis, Bodies, Grid, Particles, Scene};
 
 pub(crate) const DENSITY: f64 = 2.0;
 
@@ -33,7 +33,7 @@ pub(crate) fn block<const D: usize>(h: f64, per_cell: usize, lo: [usize; D], hi:
 pub(crate) fn scene<const D: usize>(grid: Grid<D>, particles: Particles<D>) -> (Scene<D>, Settings<D>) {
     let law = law();
     let dt = courant_time_step(0.3, grid.h, law.wave_speed(DENSITY));
-    let body = Body::new(law, particles).unwrap();
+    let body = Bodies::new(law, particles).unwrap();
     (Scene::new(grid, body), Settings::new(dt))
 }
 

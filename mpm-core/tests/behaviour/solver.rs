@@ -283,7 +283,7 @@ fn what_constraints_take_is_known() {
 
 fn fault(change: impl FnOnce(&mut Particles<2>, &mut Settings<2>)) -> (u32, Fault) {
     let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-    change(&mut scene.body.particles, &mut settings);
+    change(&mut scene.bodies.particles, &mut settings);
     let outcome =
         Solver::<2, 3, Gimp>::new(scene, settings).and_then(|mut solver| (0..2000).try_for_each(|_| solver.step()));
     match outcome {
@@ -328,7 +328,7 @@ fn breakdowns_are_typed_and_name_the_particle() {
 fn bad_input_is_refused_with_its_range() {
     let refuse = |change: fn(&mut Particles<2>, &mut Settings<2>)| {
         let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), block(0.5, 2, [4, 4], [8, 8]));
-        change(&mut scene.body.particles, &mut settings);
+        change(&mut scene.bodies.particles, &mut settings);
         let error = Solver::<2, 3, Gimp>::new(scene, settings).err().unwrap();
         assert!(matches!(error, Error::Input { .. }), "{error}");
     };
@@ -374,7 +374,7 @@ fn a_remedy_may_change_the_stress_that_enters_the_force() {
             *v = [0.01 * (x[0] - 3.0), 0.01 * (x[1] - 3.0)];
         }
         let (mut scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
-        scene.body.law = NeoHookean { lambda: 100.0, mu: 1e-9 }.into();
+        scene.bodies.each[0].law = NeoHookean { lambda: 100.0, mu: 1e-9 }.into();
         settings.remedy = remedy;
         let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();
         let before = solver.totals().kinetic_energy;

@@ -7,7 +7,7 @@ use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::stage::{BodyForce, KineticDamping, ParticleFilter};
-use mpm_core::{Axis, Basis, Body, Grid, Particles, Scene, Simulation};
+use mpm_core::{Axis, Basis, Bodies, Grid, Particles, Scene, Simulation};
 use nalgebra::SMatrix;
 use std::f64::consts::PI;
 
@@ -152,7 +152,7 @@ fn strain_of_a_lone_particle<T: Transfer<1>>(share: f64, transfer: T) -> f64 {
     let particles = Particles::new(places, 0.5 * h, 2.0, [0.25 * h]).unwrap();
     let squeezed = particles.deformed(|x| (*x, nalgebra::Matrix1::new(0.999)));
     let dt = courant_time_step(0.3, h, law.wave_speed(2.0));
-    let scene = Scene::new(Grid::new(h, [Axis::open(0.0, 10)]).unwrap(), Body::new(law, squeezed).unwrap());
+    let scene = Scene::new(Grid::new(h, [Axis::open(0.0, 10)]).unwrap(), Bodies::new(law, squeezed).unwrap());
     let settings = Settings::new(dt).transfer(transfer);
     let mut solver = Solver::<1, 2, Linear, T>::new(scene, settings).unwrap();
     let outermost = |solver: &Solver<1, 2, Linear, T>| {

@@ -96,7 +96,7 @@ fn separable_walls_bear_no_tension_and_momentum_balances() {
 fn damping_leaves_reactions_what_they_are() {
     let (still, settings) = scene(block(0, [0.0; 2]), WallKind::Roller, Flip::default());
     let (weight, dt) = (1.0, settings.dt);
-    let mass: f64 = still.body.particles.mass.iter().sum();
+    let mass: f64 = still.bodies.particles.mass.iter().sum();
     let pulled = still.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-weight, 0.0])));
     let damped = settings.filter_forces(LocalDamping::new(0.3).unwrap());
     let mut solver = started::<3, Gimp, _>((pulled, damped));
@@ -142,7 +142,7 @@ fn grain<B: Basis<3>>(x: f64, acceleration: f64) -> Result<Solver<2, 3, B, Flip>
     let place = vec![[x * H, 2.0 * H]];
     let particle = Particles::new(place, H * H / 4.0, DENSITY, [0.25 * H; 2]).unwrap();
     let (mut scene, settings) = scene(particle, WallKind::Separable, Flip::default());
-    scene.body.law = NeoHookean::new(1e-6, 0.0).unwrap().into();
+    scene.bodies.each[0].law = NeoHookean::new(1e-6, 0.0).unwrap().into();
     let pushed = scene.load(BodyForce(Box::new(move |_: &[f64; 2], _| [-acceleration, 0.0])));
     Solver::new(pushed, settings)
 }

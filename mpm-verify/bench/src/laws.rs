@@ -3,7 +3,7 @@
 use crate::local::{Going, Local};
 use crate::turn::{Error, Turn};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, SharedLaw, Strength};
-use mpm_core::{Body, Particles};
+use mpm_core::{Bodies, Particles};
 
 /// Particles, as many as stay in a cache.
 const PARTICLES: usize = 4096;
@@ -11,7 +11,7 @@ const PARTICLES: usize = 4096;
 const UPDATES: u64 = 100;
 
 struct Updates<const D: usize> {
-    body: Body<D>,
+    body: Bodies<D>,
 }
 
 impl<const D: usize> Going for Updates<D> {
@@ -34,7 +34,7 @@ fn of(name: &str, law: impl Into<SharedLaw>, shear: f64, turns: &mut Vec<Turn>) 
 fn turn<const D: usize>(name: &str, law: SharedLaw, shear: f64) -> Result<Turn, Error> {
     let local = Local::new(1, || {
         let particles = Particles::new(vec![[0.0; D]; PARTICLES], 1.0, 1.0, [0.5; D])?;
-        let mut body = Body::new(law, particles)?;
+        let mut body = Bodies::new(law, particles)?;
         for f in &mut body.particles.delta_f {
             f[(0, 1)] = shear;
         }

@@ -9,7 +9,7 @@ use crate::local::{Local, Steps};
 use crate::turn::{Error, Turn, on_threads};
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Axis, Body, Grid, Particles, Scene, Simulation};
+use mpm_core::{Axis, Bodies, Grid, Particles, Scene, Simulation};
 use mpm_solvers::scheme::{BasisName, RemedyName, Scheme};
 use mpm_solvers::solver;
 use std::f64::consts::TAU;
@@ -70,7 +70,7 @@ impl<const D: usize> Block<D> {
             true => RemedyName::FbarRecursive,
             false => RemedyName::None,
         };
-        let scene = Scene::new(Grid::new(H, [axis; D])?, Body::new(law, particles)?);
+        let scene = Scene::new(Grid::new(H, [axis; D])?, Bodies::new(law, particles)?);
         let scheme = Scheme::flip(BasisName::Bspline2, remedy);
         let settings = Settings::new(dt).remedy(remedy.build());
         Ok(solver(scheme, scene, settings)?)

@@ -10,6 +10,7 @@ pub use told::{Column, Scales};
 use crate::Built;
 use mpm_core::{Error, Frame, Grid, Saved, Scene, Simulation, Work};
 use std::cell::RefCell;
+use std::ops::Range;
 
 /// Where a scene is seen from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,7 +134,7 @@ pub(crate) fn built<const D: usize>(
         TRIAL.set(stage);
         return build(scene, None);
     };
-    let pairs = scene.body.particles.len() as u64 * FEWEST_NODES.pow(D as u32);
+    let pairs = scene.bodies.particles.len() as u64 * FEWEST_NODES.pow(D as u32);
     let too_large = matches!(trial.length, Length::Until(most, _) if pairs > most);
     let frame = trial.view.frame(&scene.grid);
     let Some(frame) = frame.filter(|_| !too_large) else {
@@ -162,12 +163,13 @@ fn tried<const D: usize>(
         _ => scene.seen_from(frame)?,
     };
     if trial.shrunk {
-        let sizes = &mut seen.body.particles.half_size;
+        let sizes = &mut seen.bodies.particles.half_size;
         *sizes = sizes.map(|half| SHRUNK * half);
     }
     if trial.shuffled {
-        let order = shuffled(seen.body.particles.len());
-        seen.body.permute(&order);
+        let of_body = |range: Range<usize>| shuffled(range.len()).into_iter().map(move |k| range.start as u32 + k);
+        let order: Vec<u32> = seen.bodies.each.iter().flat_map(|body| of_body(body.range())).collect();
+        seen.bodies.permute(&order);
     }
     let scales = Scales::of(&seen, frame);
     let mut run = build(seen, (trial.view != View::Own).then_some(frame))?;

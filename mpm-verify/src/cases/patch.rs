@@ -279,7 +279,7 @@ impl<const D: usize> Problem<D> for Moving {
             particles.affine = particles.position.iter().map(moment).collect();
         }
         let pull = self.setup.ways::<D>()[0].map(|way| 2.0 * way / DURATION.powi(2));
-        let scene = Scene::new(Grid::new(h, ways.map(axis))?, Body::new(self.law, particles)?);
+        let scene = Scene::new(Grid::new(h, ways.map(axis))?, Bodies::new(self.law, particles)?);
         self.setup.moving(scene.load(Gravity(Box::new(move |_| pull))), self.dt, self.setup.damping)
     }
 

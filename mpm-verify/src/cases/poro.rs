@@ -30,7 +30,7 @@ pub(super) fn column<P: ParameterSet>(
     let spacing = h / PER_CELL as f64;
     // Nothing moves by its weight: any density will do.
     let particles = setup.particles_at(by_rows([cells * PER_CELL], spacing), spacing, 1000.0)?;
-    Ok(Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo)))
+    Ok(Scene::new(Grid::new(h, [axis])?, Bodies::new(law, particles)?).constrain(roller(0, End::Lo)))
 }
 
 /// Whether a particle of a column on cells of size `h` (m) is its topmost.

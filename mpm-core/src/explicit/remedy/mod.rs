@@ -34,12 +34,13 @@ pub struct Deformation<const D: usize> {
 }
 
 impl<const D: usize> Deformation<D> {
-    /// Room for `n` particles.
+    /// Room for bodies of so many particles each.
     #[must_use]
-    pub fn of(remedy: &dyn Remedy<D>, n: usize) -> Self {
+    pub fn of(remedy: &dyn Remedy<D>, lengths: &[usize]) -> Self {
+        let (n, eights) = (lengths.iter().sum(), lengths.iter().map(|n| blocks(*n)).sum());
         Self {
-            delta_f: vec![[[Eight::ZERO; D]; D]; blocks(n)],
-            increment: vec![[Eight::ZERO; D]; blocks(n)],
+            delta_f: vec![[[Eight::ZERO; D]; D]; eights],
+            increment: vec![[Eight::ZERO; D]; eights],
             volume_change: vec![0.0; n],
             shear: vec![0.0; if remedy.asks_for_shear() { n } else { 0 }],
         }
@@ -216,6 +217,3 @@ fn mean<T: Real, const D: usize>(stress: &SymmetricTensor<T>) -> T {
 pub fn force_stress<T: Real, const D: usize>(stress: &SymmetricTensor<T>, ratio: T, of_force: T) -> SymmetricTensor<T> {
     stress.scale_add_identity(ratio, of_force - ratio * mean::<T, D>(stress))
 }
-
-#[cfg(test)]
-mod tests;

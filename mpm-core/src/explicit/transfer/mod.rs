@@ -16,8 +16,6 @@ mod flip;
 pub mod kernel;
 mod musl;
 mod sweep;
-#[cfg(test)]
-mod tests;
 mod xpic;
 
 pub use apic::{Apic, second_moment};
@@ -31,14 +29,14 @@ use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memory;
 use crate::nodes::NodalState;
 use crate::number::{EIGHT, Eight};
+use crate::order::Slabs;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
-use std::ops::Range;
 
 /// A particle–grid transfer. Its methods stand inside the loop over particles and nodes, so it is a
 /// type parameter of the solver. They serve eight particles, or one of eight.
-pub trait Transfer<const D: usize>: Memory + Send + Sync {
+pub trait Transfer<const D: usize>: Memory + Clone + Send + Sync {
     /// Data that eight particles give to the nodes beside momentum, mass and forces.
     type Gives<const S: usize>: Copy + Default;
     /// Data that eight particles receive beside [`Received`].
@@ -79,13 +77,13 @@ pub trait Transfer<const D: usize>: Memory + Send + Sync {
         kernel::spread(stencil, given, carried, nodes, origin);
     }
 
-    /// Between the grid update and G2P: what needs passes over all particles. `held` are the prescribed
-    /// velocities. Returns how often it went from the grid to the particles and back.
+    /// Between the grid update and G2P: what needs passes over all particles, of bodies with these `slabs`. `held` are
+    /// the prescribed velocities. Returns how often it went from the grid to the particles and back.
     fn prepare<const S: usize, B: Basis<S>>(
         &mut self,
         _lattice: &Lattice<D, S, B>,
         _particles: &Particles<D>,
-        _slabs: &[Range<usize>],
+        _slabs: &[Slabs],
         _nodes: &[NodalState],
         _held: &[Prescribed],
     ) -> u64 {

@@ -20,10 +20,10 @@ use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memoryless;
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
+use crate::order::Slabs;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
-use std::ops::Range;
 
 /// MUSL: FLIP, with one more pass to the particles and back per step, from which strains come.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -43,7 +43,7 @@ impl<const D: usize> Transfer<D> for Musl {
         &mut self,
         lattice: &Lattice<D, S, B>,
         particles: &Particles<D>,
-        slabs: &[Range<usize>],
+        slabs: &[Slabs],
         nodes: &[NodalState],
         held: &[Prescribed],
     ) -> u64 {

@@ -5,9 +5,9 @@ use crate::eights::{AHEAD, Eights, blocks, components, entries};
 use crate::lattice::{Lattice, Stencil, StencilRef, Stencils};
 use crate::nodes::{NodalState, Node};
 use crate::number::EIGHT;
-use crate::parallel::scatter;
+use crate::order::Slabs;
+use crate::parallel::scatter_all;
 use crate::particles::Particles;
-use std::ops::Range;
 
 /// Nodes whose `motion` goes to the particles and back.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -33,12 +33,12 @@ impl Sweep {
         &mut self,
         lattice: &Lattice<D, S, B>,
         particles: &Particles<D>,
-        slabs: &[Range<usize>],
+        slabs: &[Slabs],
     ) {
         let (x, mass) = (&particles.position, &particles.mass);
         let nodes = &self.nodes;
         self.mapped.fill(Node::ZERO);
-        scatter(&mut self.mapped, lattice.plane(), slabs, |slab, mapped, origin| {
+        scatter_all(&mut self.mapped, lattice.plane(), slabs, |slab, mapped, origin| {
             let mass = &mass[slab.clone()];
             let x = Eights::of(&x[slab]);
             let mut stencils = Stencils::on(lattice);

@@ -27,10 +27,10 @@ use crate::lattice::{Lattice, StencilRef};
 use crate::memory::Memoryless;
 use crate::nodes::{NodalState, Node};
 use crate::number::{EIGHT, Eight};
+use crate::order::Slabs;
 use crate::particles::Particles;
 use crate::stage::Prescribed;
 use nalgebra::SMatrix;
-use std::ops::Range;
 
 /// Largest order: every sweep costs about a P2G, and gains less than the one before.
 const MAX_ORDER: u32 = 5;
@@ -65,7 +65,7 @@ impl<const D: usize> Transfer<D> for Xpic {
         &mut self,
         lattice: &Lattice<D, S, B>,
         particles: &Particles<D>,
-        slabs: &[Range<usize>],
+        slabs: &[Slabs],
         nodes: &[NodalState],
         held: &[Prescribed],
     ) -> u64 {

@@ -36,7 +36,7 @@ fn a_body_that_nothing_holds_is_loose() {
 fn a_part_that_has_come_off_is_named() {
     let axes = [Axis::walls(0.0, 4), Axis::bounded(0.0, 9, (Side::Wall, Side::Open))];
     let mut scene = filled(axes, 4, Places::Uniform, rubber());
-    for x in scene.body.particles.position.iter_mut().filter(|x| x[1] > 2.0 * H) {
+    for x in scene.bodies.particles.position.iter_mut().filter(|x| x[1] > 2.0 * H) {
         x[1] += 3.0 * H;
     }
     let scene =

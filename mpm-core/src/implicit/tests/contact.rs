@@ -28,12 +28,12 @@ fn tangent_has_the_barrier<const D: usize, I: Interpolation<2>, M: Law + 'static
     let mut solver = strained::<2, I, M>(law, remedy);
     // Deep enough that some particles are beyond it and gaps of others are near a tenth of it.
     let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
-    let particles = &solver.scene.body.particles;
+    let particles = &solver.scene.bodies.particles;
     let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
     let contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier);
     solver.scene.contacts.push(contact);
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let rest = vec![0.0; setting.unknowns.len()];
     let touching = step.trial(&rest, solver.functions.len()).unwrap().pushes;
     assert!(touching.len() > 4 && touching.len() < particles.len());
@@ -51,11 +51,11 @@ fn the_tangent_of_contact_is_the_slope_of_its_forces() {
 fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2> {
     let axes = [Axis::open(0.0, CELLS + 4); 2];
     let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
-    for x in &mut scene.body.particles.position {
+    for x in &mut scene.bodies.particles.position {
         *x = x.map(|x| x + 2.0 * H);
     }
-    scene.body.particles.velocity.fill([0.1, -SPEED]);
-    let contact = floor(&scene.body.particles, gap, FORCE);
+    scene.bodies.particles.velocity.fill([0.1, -SPEED]);
+    let contact = floor(&scene.bodies.particles, gap, FORCE);
     let settings = Settings { tolerance: 1e-12, ..Settings::new(dt).rule(rule) };
     Solver::new::<Quadratics<2>>(scene.contact(contact), settings).unwrap()
 }
@@ -136,7 +136,7 @@ fn a_long_step_does_not_close_a_gap() {
 fn a_correction_stops_before_the_first_gap_that_it_closes() {
     let solver = thrown(TimeRule::Static, 1.0, DISTANCE);
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let count = setting.unknowns.len();
     let rest = vec![[0.0; 2]; solver.functions.len()];
     let falls = |by: f64| -> Vec<f64> {
@@ -153,12 +153,12 @@ fn a_correction_stops_before_the_first_gap_that_it_closes() {
 fn rests<const D: usize, I: Interpolation<2>, M: Law + 'static>(law: M, remedy: Remedy) {
     let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
     let mut scene = filled(axes, CELLS, Places::Uniform, law);
-    for x in &mut scene.body.particles.position {
+    for x in &mut scene.bodies.particles.position {
         x[1] += 2.0 * H;
     }
     let weight = 1e3 * (H * CELLS as f64).powi(2);
     let each = weight / (2 * CELLS) as f64;
-    let contact = floor(&scene.body.particles, 0.5 * DISTANCE, each);
+    let contact = floor(&scene.bodies.particles, 0.5 * DISTANCE, each);
     let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
     let scene = scene.constrain_all(rollers).contact(contact).load(Gravity(Box::new(|_| [0.0, -1.0])));
     let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
@@ -187,7 +187,7 @@ fn a_floor_bears_the_weight_of_what_rests_on_it() {
 fn a_face_across_a_periodic_axis_is_refused() {
     let axes = [Axis::walls(0.0, CELLS), Axis::periodic(0.0, CELLS)];
     let scene = filled(axes, CELLS, Places::Uniform, rubber());
-    let contact = floor(&scene.body.particles, 0.1, 1.0);
+    let contact = floor(&scene.bodies.particles, 0.1, 1.0);
     let solver = Solver::<2>::new::<Quadratics<2>>(scene.contact(contact), Settings::new(1.0));
     assert!(solver.err().unwrap().to_string().contains("periodic"));
 }

@@ -12,7 +12,7 @@ const DT: f64 = 0.01;
 fn tumbling<M: Law + 'static>(law: M) -> Scene<2> {
     let mut scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, law);
     let shift = 2.0 * H;
-    let p = &mut scene.body.particles;
+    let p = &mut scene.bodies.particles;
     for k in 0..p.len() {
         let [x, y] = p.position[k];
         p.velocity[k] = [0.3 - 0.8 * (y - CENTRE) + 0.5 * (x - CENTRE), 0.1 + 1.1 * (x - CENTRE)];
@@ -78,7 +78,7 @@ fn the_midpoint_rule_loses_what_the_lumped_mass_takes() {
 fn a_body_falls_freely() {
     for rule in [MIDPOINT, NEWMARK] {
         let mut scene = filled([Axis::open(0.0, 8); 2], CELLS, Places::Uniform, rubber());
-        for x in &mut scene.body.particles.position {
+        for x in &mut scene.bodies.particles.position {
             *x = x.map(|x| x + 3.0 * H);
         }
         let scene = scene.load(Gravity(Box::new(|_| [0.0, -9.81])));
@@ -102,7 +102,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
     let ramp = 6.0 * DT;
     let plate = RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2], velocity: [Some(SPEED), None], ramp };
     let mut scene = tumbling(rubber());
-    scene.body.particles.velocity.fill([0.0; 2]);
+    scene.bodies.particles.velocity.fill([0.0; 2]);
     let settings = Settings::new(DT).rule(MIDPOINT);
     let scene = scene.constrain(plate);
     let mut solver = Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap();
@@ -118,7 +118,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
 /// A box between rollers that swings along its first axis.
 fn swinging() -> Scene<2> {
     let mut scene = full::<2, _>(CELLS, Places::Uniform, rubber());
-    let p = &mut scene.body.particles;
+    let p = &mut scene.bodies.particles;
     for (x, v) in p.position.iter().zip(&mut p.velocity) {
         *v = [0.1 * (std::f64::consts::PI * x[0] / (H * CELLS as f64)).sin(), 0.0];
     }
@@ -153,7 +153,7 @@ fn the_midpoint_rule_is_of_second_order() {
 /// from the nodes.
 #[test]
 fn the_rules_agree_between_walls() {
-    let start = swinging().body.particles.position;
+    let start = swinging().bodies.particles.position;
     let both = [TimeRule::Midpoint { lumped: 1.0 }, NEWMARK].map(|rule| swung(rule, 32));
     let moved = apart(&both[0], &start);
     let gap = apart(&both[0], &both[1]) / moved;

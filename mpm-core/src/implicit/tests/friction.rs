@@ -27,7 +27,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
 ) {
     let mut solver = strained::<D, I, M>(law, remedy);
     let face = RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap();
-    let particles = &solver.scene.body.particles;
+    let particles = &solver.scene.bodies.particles;
     let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
     let mut contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier).with_friction(friction);
     contact.attach(particles.len());
@@ -36,7 +36,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
     contact.stick(particles.id.iter().map(|id| (*id, before)));
     solver.scene.contacts.push(contact);
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let rest = vec![0.0; setting.unknowns.len()];
     let touching = step.trial(&rest, solver.functions.len()).unwrap().pushes;
     assert!(touching.len() > 4 && touching.len() < particles_of(&solver));
@@ -48,7 +48,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
 }
 
 fn particles_of<const D: usize>(solver: &Solver<D>) -> usize {
-    solver.scene.body.particles.len()
+    solver.scene.bodies.particles.len()
 }
 
 #[test]
@@ -77,10 +77,10 @@ pub(super) fn stick(barrier: Barrier) -> f64 {
 pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
     let axes = [Axis::open(0.0, 8 * CELLS), Axis::open(0.0, CELLS + 4)];
     let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
-    for x in &mut scene.body.particles.position {
+    for x in &mut scene.bodies.particles.position {
         *x = x.map(|x| x + 2.0 * H);
     }
-    let contact = floor(&scene.body.particles, 0.5 * DISTANCE, EACH);
+    let contact = floor(&scene.bodies.particles, 0.5 * DISTANCE, EACH);
     let friction = friction(stick(contact.barrier()));
     let gravity = move |t: f64| [if t > 1.0 { slope } else { 0.0 }, -1.0];
     let settings = Settings { tolerance: TOLERANCE, ..settings.stabilised(Stabilisation::Ghost(1e-3)) };
@@ -113,7 +113,7 @@ pub(super) fn settle(solver: &mut Block) {
 /// Goes on by another rule, from rest.
 fn go_on(solver: &mut Block, rule: TimeRule, dt: f64) {
     solver.settings = Settings { dt, ..solver.settings.rule(rule) };
-    let particles = &mut solver.scene.body.particles;
+    let particles = &mut solver.scene.bodies.particles;
     particles.velocity = vec![[0.0; 2]; particles.len()];
     particles.acceleration = particles.velocity.clone();
 }
@@ -244,7 +244,7 @@ fn a_rough_face_that_moves_along_itself_takes_a_block_with_it() {
     let moving = RigidContact::new(face, contact.barrier());
     let mut moving = moving.with_friction(contact.friction().unwrap());
     moving.attach(solver.particles().len());
-    let ids = &solver.scene.body.particles.id;
+    let ids = &solver.scene.bodies.particles.id;
     moving.stick(ids.iter().map(|id| (*id, contact.sticks()[*id as usize])));
     solver.scene.contacts[0] = moving;
     let before = places(&solver);

@@ -8,8 +8,8 @@ use nalgebra::DMatrix;
 pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> Solver<D> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1));
     let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
-    scene.body.particles = scene.body.particles.deformed(|x| (*x, f));
-    scene.body = Body::new(scene.body.law, scene.body.particles).unwrap();
+    scene.bodies.particles = scene.bodies.particles.deformed(|x| (*x, f));
+    scene.bodies = Bodies::new(scene.bodies.each[0].law.clone(), scene.bodies.particles).unwrap();
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
     let mut solver = Solver::new::<I>(scene.constrain(wall), settings).unwrap();
@@ -32,7 +32,7 @@ fn tangent_is_the_slope_of_the_forces<const D: usize, I: Interpolation<D>, M: La
 /// The same of a solver.
 pub(super) fn slope_of_the_forces<const D: usize>(solver: &Solver<D>, remedy: Remedy) {
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let nodes = solver.functions.len();
     let count = setting.unknowns.len();
     let held = &setting.unknowns.held;
@@ -83,7 +83,7 @@ fn stiffness_is_the_slope_of_the_forces() {
 fn asymmetry<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> f64 {
     let solver = strained::<D, I, M>(law, remedy);
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let nodes = solver.functions.len();
     let count = setting.unknowns.len();
     let u = random_values(count, &setting.unknowns.held, 0.02 * H, 7);
@@ -122,7 +122,7 @@ fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let solver = Solver::<D>::new::<I>(scene.constrain(wall), settings).unwrap();
     let setting = solver.setting(1.0);
-    let step = setting.step(&solver.scene.body, 1.0);
+    let step = setting.step(&solver.scene.bodies, 1.0);
     let (nodes, unknowns) = (solver.functions.len(), &setting.unknowns);
     let mut x = vec![0.0; unknowns.len()];
     solver.functions.for_each_node(&mut |node, place| {

@@ -34,7 +34,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
 fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2> {
     let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
     let whole = filled(axes, CELLS, Places::Uniform, rubber());
-    let mut seeded = whole.body.particles.position.clone();
+    let mut seeded = whole.bodies.particles.position.clone();
     seeded.truncate(rows * 2 * CELLS);
     for x in &mut seeded {
         x[1] += 2.0 * H;
@@ -42,7 +42,7 @@ fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2> {
     let particles = Particles::new(seeded, 0.25 * H * H, 1000.0, [0.25 * H; 2]).unwrap();
     let contact = floor(&particles, 0.1 * H, 125.0);
     let rollers = [End::Lo, End::Hi].map(|end| Wall::new(0, end, WallKind::Roller));
-    let scene = Scene::new(whole.grid, Body::new(rubber(), particles).unwrap())
+    let scene = Scene::new(whole.grid, Bodies::new(rubber(), particles).unwrap())
         .constrain_all(rollers)
         .load(Gravity(Box::new(|_| [0.0, -1.0])));
     let scene = if lies { scene.contact(contact) } else { scene };
@@ -79,7 +79,7 @@ fn a_body_of_fewer_particles_is_refused() {
     let mut many = pile(8, TimeRule::Static, true);
     let error = many.take_over(&few.body().unwrap()).unwrap_err();
     assert!(error.to_string().contains("40 in the saved state, 64"), "{error}");
-    let hand_over = Saved::of(&(few.scene.body.save().unwrap(), 7_u8)).unwrap();
+    let hand_over = Saved::of(&(few.scene.bodies.save().unwrap(), 7_u8)).unwrap();
     assert!(many.take_over(&hand_over).is_err());
 }
 

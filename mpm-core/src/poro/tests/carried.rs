@@ -39,7 +39,7 @@ fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
         .face(face);
     let grid = Grid::new(H, [Axis::open(0.0, ALL); D]).unwrap();
     let speed = 0.23 * H / settings.dt;
-    let body = Body::new(porous(), particles).unwrap();
+    let body = Bodies::new(porous(), particles).unwrap();
     let scene = Scene::new(grid, body).constrain(Carried(speed));
     let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     for step in 1..=12 {
@@ -70,7 +70,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
     let positions = lattice([2 * HIGH], 0.5 * H, 0.0);
     let particles = Particles::new(positions, 0.5 * H, 1000.0, [0.25 * H]).unwrap();
-    let scene = Scene::new(grid, Body::new(porous(), particles).unwrap());
+    let scene = Scene::new(grid, Bodies::new(porous(), particles).unwrap());
     let water = Water::new(POROSITY, kozeny_carman());
     let settings = Settings::new(1.0).pressure_space(PressureSpace::Projected { strength: 1.0 });
     let mut solver = Solver::<1>::new::<Means<1>>(scene, water, settings).unwrap();
@@ -99,7 +99,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let volume: Vec<f64> = (0..places.len()).map(|p| H / (1 + p) as f64).collect();
     solver.pores.pressure = pressure.clone();
     solver.pores.slope = vec![[0.0]; places.len()];
-    solver.scene.body.particles.volume = volume.clone();
+    solver.scene.bodies.particles.volume = volume.clone();
     let setting = solver.setting(1.0, Vec::new()).unwrap();
     let functions = solver.water_space.functions.as_ref();
     let told = unknowns::extrapolated(&setting.water, functions, solver.particles(), &solver.pores);
@@ -122,7 +122,7 @@ fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
 fn water_from_within_swells_a_body() {
     for space in SPACES {
         let scene = standing::<2, _>(porous(), straight);
-        let volume: f64 = scene.body.particles.reference_volume.iter().sum();
+        let volume: f64 = scene.bodies.particles.reference_volume.iter().sum();
         let rates = [3e-3, 2e-3];
         let mut water = Water::new(POROSITY, kozeny_carman());
         for rate in rates {

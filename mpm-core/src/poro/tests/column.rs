@@ -12,10 +12,10 @@ fn one_element_consolidates_as_its_closed_form() {
     let grid = Grid::new(H, [Axis::bounded(0.0, 4, (Side::Wall, Side::Open))]).unwrap();
     let particles = Particles::new(vec![[0.25 * H], [0.75 * H]], 0.5 * H, 1.0, [0.25 * H]).unwrap();
     let floor = Wall::new(0, End::Lo, WallKind::Roller);
-    let scene = Scene::new(grid, Body::new(law, particles).unwrap()).constrain(floor);
+    let scene = Scene::new(grid, Bodies::new(law, particles).unwrap()).constrain(floor);
     let load = 1e-6 * modulus;
     let upper = |x: &[f64; 1]| x[0] > 0.5 * H;
-    let face = Face::loaded(&scene.body.particles, upper, (0, End::Hi), move |_| [-load]);
+    let face = Face::loaded(&scene.bodies.particles, upper, (0, End::Hi), move |_| [-load]);
     let water = Water::new(POROSITY, Conductivity::Constant(KAPPA)).drained(|x| x[0] > 0.5 * H).face(face);
     let dt = 0.1 * H * H / (KAPPA * modulus);
     let settings = Settings::new(dt).pressure_space(PressureSpace::Equal);
@@ -191,7 +191,7 @@ fn pores_stay_open_under_any_load() {
 fn grains_settle_under_their_weight_in_water() {
     let heavier = 1600.0 * 10.0 * (1.0 - POROSITY);
     let scene = standing::<1, _>(porous(), straight);
-    let top = Face::drained(&scene.body.particles, topmost, (0, End::Hi), 1e4 * KAPPA / H);
+    let top = Face::drained(&scene.bodies.particles, topmost, (0, End::Hi), 1e4 * KAPPA / H);
     let water = Water::new(POROSITY, kozeny_carman())
         .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration: [-10.0] })
         .start(|x| 1e4 * (TOP - x[0]))

@@ -11,7 +11,7 @@ fn ghosts(dt: f64) -> [Settings; 2] {
 /// A column whose height is this share of that of the cells, under 0.3 of its modulus and drained at its top.
 fn unfitted(height: f64, settings: Settings) -> Solver<1> {
     let fitted = standing::<1, _>(porous(), straight);
-    let places = &fitted.body.particles.position;
+    let places = &fitted.bodies.particles.position;
     let places = places.iter().map(|x| [x[0] * height]).collect();
     let spacing = 0.5 * H * height;
     let particles = Particles::new(places, spacing, 1000.0, [0.5 * spacing]).unwrap();
@@ -19,7 +19,7 @@ fn unfitted(height: f64, settings: Settings) -> Solver<1> {
     let load = Face::loaded(&particles, highest, (0, End::Hi), |_| [-0.3 * MODULUS]);
     let drain = Face::drained(&particles, highest, (0, End::Hi), 100.0 * KAPPA / H);
     let floor = Wall::new(0, End::Lo, WallKind::Roller);
-    let body = Body::new(porous(), particles).unwrap();
+    let body = Bodies::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain(floor);
     let water = Water::new(POROSITY, kozeny_carman()).face(load).face(drain);
     Solver::new::<Means<1>>(scene, water, settings).unwrap()

@@ -18,7 +18,7 @@ fn refused<const D: usize>(scene: Scene<D>, water: Water<D>, what: &str) {
 /// A body whose corners at the top lie in the cell above, which is empty.
 fn jutting() -> Scene<1> {
     let mut scene = standing::<1, _>(porous(), straight);
-    scene.body.particles.half_size = [0.5 * H];
+    scene.bodies.particles.half_size = [0.5 * H];
     scene
 }
 
@@ -27,12 +27,12 @@ fn faces_that_the_body_does_not_bear_are_refused() {
     let top = (0, End::Hi);
     let face = |select: fn(&[f64; 1]) -> bool| {
         let scene = standing::<1, _>(porous(), straight);
-        Face::loaded(&scene.body.particles, select, top, |_| [-1.0])
+        Face::loaded(&scene.bodies.particles, select, top, |_| [-1.0])
     };
     let column = || standing::<1, _>(porous(), straight);
     refused(column(), water().face(face(|_| false)), "particles of a loaded or drained face");
     refused(jutting(), water().face(face(topmost)), "in an empty cell");
-    let particles = column().body.particles;
+    let particles = column().bodies.particles;
     let drained = |penalty| Face::drained(&particles, topmost, top, penalty);
     refused(jutting(), water().face(drained(1.0)), "in an empty cell");
     for penalty in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -120,7 +120,7 @@ fn carries_its_force<I: OfHats<2>>(pressure_space: PressureSpace) {
     assert!((tied.on(floor).force[1] / force - 1.0).abs() < 1e-8);
     assert!(tied.residual().free_force < 1e-8 * force);
 
-    let particles = standing::<2, _>(porous(), straight).body.particles;
+    let particles = standing::<2, _>(porous(), straight).bodies.particles;
     let traction = force / (WIDE as f64 * H);
     let face = Face::loaded(&particles, topmost, (1, End::Hi), move |_| [0.0, traction]);
     let bent = unevenness(&mut slab::<Means<2>>(water().face(face), settings));

@@ -11,7 +11,7 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D> {
         if i == j { 1.0 - strain.abs() } else { strain }
     });
     let scene = standing::<D, _>(porous(), |x| (*x, f));
-    let particles = &scene.body.particles;
+    let particles = &scene.bodies.particles;
     let top = (D - 1, End::Hi);
     let mut acceleration = [0.3; D];
     acceleration[D - 1] = -10.0;

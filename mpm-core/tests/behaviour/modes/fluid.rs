@@ -4,7 +4,7 @@ use super::model::{CELLS, H, Kind};
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{NewtonianFluid, shared};
 use mpm_core::number::Real;
-use mpm_core::{Axis, Body, Grid, Law, Particles, Scene, SymmetricTensor};
+use mpm_core::{Axis, Bodies, Grid, Law, Particles, Scene, SymmetricTensor};
 use nalgebra::Matrix3;
 
 pub(super) const DENSITY: f64 = 2.0;
@@ -63,5 +63,5 @@ pub(super) fn scene<const D: usize>(n: usize, kind: Kind, cfl: f64, mean: f64) -
     let grid = Grid::new(H, [Axis::periodic(0.0, CELLS); D]).unwrap();
     let law = Prestressed { bulk: FLUID, mean };
     let settings = Settings::new(courant_time_step(cfl, H, C)).remedy(kind.remedy());
-    (Scene::new(grid, Body::new(shared(law), particles).unwrap()), settings)
+    (Scene::new(grid, Bodies::new(shared(law), particles).unwrap()), settings)
 }

@@ -37,7 +37,10 @@ pub struct Scales {
 impl Scales {
     /// Scales of the scene `seen` from `frame`.
     pub(super) fn of<const D: usize>(seen: &Scene<D>, frame: &Frame<D>) -> Self {
-        let (stress, density) = (seen.body.wave_modulus(), seen.body.least_density());
+        let (bodies, moduli) = (&seen.bodies, seen.bodies.wave_moduli());
+        let stress = moduli.iter().copied().fold(0.0, f64::max);
+        let squares =
+            moduli.iter().zip(&bodies.each).map(|(modulus, body)| modulus / body.least_density(&bodies.particles));
         let barriers = seen.contacts.iter().map(|c| c.barrier().distance());
         let length = frame.scale(0, 1);
         let axes = seen.grid.axes.iter();
@@ -46,10 +49,10 @@ impl Scales {
         Self {
             stress: stress / frame.scale(1, 0),
             length: seen.grid.h / length,
-            time: seen.grid.h / (stress / density).sqrt(),
+            time: seen.grid.h / squares.fold(0.0, f64::max).sqrt(),
             finest: barriers.fold(seen.grid.h, f64::min) / length,
             place: (farthest.next_up() - farthest) / length,
-            particles: seen.body.particles.len(),
+            particles: seen.bodies.particles.len(),
         }
     }
 }

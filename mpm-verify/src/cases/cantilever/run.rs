@@ -87,7 +87,7 @@ impl Setup<Cantilever> {
         let up = Axis::open(-h * lower as f64, lower + count(1, DEPTH + above));
         let particles = Particles::new(self.seed(), volume, DENSITY, [0.5 * h / per_cell; 2])?;
         let weight = self.weight / DENSITY;
-        let scene = Scene::new(Grid::new(h, [along, up])?, Body::new(law, particles)?)
+        let scene = Scene::new(Grid::new(h, [along, up])?, Bodies::new(law, particles)?)
             .constrain(clamp(0, End::Lo))
             .load(BodyForce(Box::new(move |_, share| [0.0, -weight * share])));
         let stabilisation = match self.stabilisation {

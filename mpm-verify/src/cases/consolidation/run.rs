@@ -117,7 +117,7 @@ impl Problem<1> for Setup<Consolidation> {
         let scene = column(self, ImprovedHencky::new(BULK, SHEAR, POROSITY)?)?;
         let load = self.whole_load();
         let traction = move |t: f64| [-load * (t / (RAMP * TIME_SCALE)).min(1.0)];
-        let (particles, top) = (&scene.body.particles, (0, End::Hi));
+        let (particles, top) = (&scene.bodies.particles, (0, End::Hi));
         // c n³/(1 − n)² is κ₀ at n₀.
         let c = KAPPA * (1.0 - POROSITY).powi(2) / POROSITY.powi(3);
         let water = Water::new(POROSITY, Conductivity::KozenyCarman(c))

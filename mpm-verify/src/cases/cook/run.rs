@@ -102,7 +102,7 @@ impl Setup<Cook> {
         let particles = self.particles()?;
         let loads = self.loads(ramp, &particles);
         let scene =
-            Scene::new(Grid::new(h, [along, up])?, Body::new(self.law()?, particles)?).constrain(clamp(0, End::Lo));
+            Scene::new(Grid::new(h, [along, up])?, Bodies::new(self.law()?, particles)?).constrain(clamp(0, End::Lo));
         Ok(loads.into_iter().fold(scene, Scene::load))
     }
 

@@ -126,8 +126,8 @@ impl<const D: usize> Trials<D> {
         let grid = Grid::new(h, std::array::from_fn(axis))?;
         let viscosity = self.setup.linear_viscosity;
         let body = match viscosity > 0.0 {
-            true => Body::new(Viscous::new(self.law, DENSITY, h, [viscosity, 0.0])?, particles)?,
-            false => Body::new(self.law, particles)?,
+            true => Bodies::new(Viscous::new(self.law, DENSITY, h, [viscosity, 0.0])?, particles)?,
+            false => Bodies::new(self.law, particles)?,
         };
         let scene = Scene::new(grid, body);
         let settings = Settings::new(courant_time_step(cfl, h, self.speed));

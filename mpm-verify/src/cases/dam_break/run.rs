@@ -86,7 +86,7 @@ impl Dam {
         let kind = if self.setup.wall_contact == Contact::Sticky { WallKind::Roller } else { WallKind::Separable };
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
         let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * smooth_rise(time, rise)]));
-        let body = Body::new(self.law, self.particles()?)?;
+        let body = Bodies::new(self.law, self.particles()?)?;
         Ok(Scene::new(grid(self.setup.h)?, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall {
             axis,
             end,

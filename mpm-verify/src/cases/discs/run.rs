@@ -251,7 +251,7 @@ impl Problem<2> for Collision {
             *velocity = if k < self.half { [speed; 2] } else { [-speed; 2] };
         }
         let law = NeoHookean::new(self.setup.young_modulus, self.setup.poisson_ratio)?;
-        let scene = Scene::new(grid, Body::new(law, particles)?);
+        let scene = Scene::new(grid, Bodies::new(law, particles)?);
         self.setup.moving(scene, self.setup.timing().0, 0.0)
     }
 

@@ -163,7 +163,7 @@ impl Problem<2> for Falling {
             Axis::open(-(beside as f64) * h, 2 * beside + cells(SIDE))
         };
         let grid = Grid::new(h, [axis(0), axis(1)])?;
-        let body = Body::new(self.law, particles)?;
+        let body = Bodies::new(self.law, particles)?;
         let scene = Scene::new(grid, body).contact(self.contact()?);
         self.setup.moving(scene, self.dt, 0.0)
     }

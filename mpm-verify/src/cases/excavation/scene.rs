@@ -246,7 +246,7 @@ impl Ground {
             true => setup.hencky()?.into(),
             false => HypoelasticJ2::new(young, ratio, JaumannUpdate::Split, setup.strength()?)?.into(),
         };
-        let body = Body::new(law, self.particles_of(stage)?)?;
+        let body = Bodies::new(law, self.particles_of(stage)?)?;
         let rises = stage == Stage::Gravity;
         let gravity = move |time: f64| {
             let share = if rises { time } else { 1.0 };

@@ -241,7 +241,7 @@ impl Problem<2> for Pressing {
         let spacing = setup.pitch();
         let downward = by_columns([across, down].map(|cells| cells * setup.ppc_per_direction), spacing);
         let particles = setup.particles_at(downward.map(|[x, y]| [x, -y]), spacing, setup.density)?;
-        let ground = Scene::new(grid, Body::new(setup.law()?, particles)?).constrain_all([
+        let ground = Scene::new(grid, Bodies::new(setup.law()?, particles)?).constrain_all([
             clamp(1, End::Lo),
             roller(0, End::Lo),
             roller(0, End::Hi),
@@ -249,7 +249,7 @@ impl Problem<2> for Pressing {
         let scene = match self.barrier {
             None => ground.constrain(self.held_nodes()),
             Some((barrier, _)) => {
-                let contact = self.contact(barrier, &ground.body.particles)?;
+                let contact = self.contact(barrier, &ground.bodies.particles)?;
                 ground.contact(contact)
             }
         };

@@ -198,7 +198,7 @@ impl Problem<2> for Consolidation {
         let particles = c.particles_at(by_rows(cells.map(|n| n * PER_CELL), spacing), spacing, 1000.0)?;
         let law = Hencky::new(c.young_modulus, c.poisson_ratio)?;
         let scene =
-            Scene::new(grid, Body::new(law, particles)?).constrain_all([0, 1].map(|axis| roller(axis, End::Lo)));
+            Scene::new(grid, Bodies::new(law, particles)?).constrain_all([0, 1].map(|axis| roller(axis, End::Lo)));
         let plate = Plate::new(1, move |x| x[1] > HEIGHT - 0.25 * h, move |_| -load);
         let water = Water::new(c.porosity, Conductivity::Constant(c.kappa()))
             .drained(move |x| x[0] > WIDTH - 0.25 * h)

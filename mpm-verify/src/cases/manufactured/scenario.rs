@@ -114,7 +114,7 @@ impl<K: Known> Scenario<K> {
         dt: f64,
     ) -> Result<Scene<D>, mpm_core::Error> {
         let (grid, walls) = self.surroundings()?;
-        let body = Body::new(law, self.seed(dt)?)?;
+        let body = Bodies::new(law, self.seed(dt)?)?;
         let forcing = forcing(&self.solution);
         Ok(Scene::new(grid, body).load(forcing).constrain_all(walls))
     }
@@ -208,7 +208,7 @@ fn solved<const D: usize, P: ParameterSet>(
     let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
         FbarConsistent => {
             let remedy = Fbar::new(Form::Consistent).relaxing(number(RELAXATION));
-            Box::new(remedy.holding(number(HOLD), scene.body.wave_modulus())?)
+            Box::new(remedy.holding(number(HOLD), scene.bodies.wave_moduli()[0])?)
         }
         other => other.build(),
     };

@@ -135,7 +135,7 @@ impl<const D: usize> Problem<D> for Moving {
             let force = exact.at(place(x), t).body_force;
             from_fn(|a| force[a])
         }));
-        let scene = Scene::new(grid, Body::new(law, particles)?).load(force).constrain_all(rollers);
+        let scene = Scene::new(grid, Bodies::new(law, particles)?).load(force).constrain_all(rollers);
         let whole = m.source == Source::Steps;
         let [water, grains] = DENSITIES;
         let mut acceleration = [0.0; D];

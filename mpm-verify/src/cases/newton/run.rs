@@ -139,7 +139,7 @@ impl Loaded {
         let counts = [ACROSS as f64 * h, HEIGHT].map(|l| (l / spacing).round() as usize);
         let particles = self.setup.particles_at(by_rows(counts, spacing), spacing, DENSITY)?;
         let gravity = self.weight / (DENSITY * HEIGHT);
-        let mut scene = Scene::new(grid, Body::new(law, particles)?)
+        let mut scene = Scene::new(grid, Bodies::new(law, particles)?)
             .load(Gravity(Box::new(move |share| [0.0, -share * gravity])))
             .constrain(roller(0, End::Lo))
             .constrain(roller(0, End::Hi));

@@ -96,6 +96,8 @@ pub(super) struct Form {
     pub(super) grid: Line<GridForm>,
     pub(super) body: Line<BodyForm>,
     pub(super) law: Line<LawForm>,
+    #[serde(default)]
+    pub(super) bodies: Vec<Line<BodyForm>>,
     pub(super) water: Option<Line<WaterForm>>,
     #[serde(default)]
     pub(super) loads: Vec<Line<LoadForm>>,
@@ -153,13 +155,20 @@ pub(super) struct Region {
     pub(super) z_m: Option<Ends>,
 }
 
+/// A body. The first one has `particles_per_direction`, which holds for all; the others have a name and a law here.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct BodyForm {
+    pub(super) name: Option<Name>,
     pub(super) density_kg_m3: Positive,
-    pub(super) particles_per_direction: PerDirection,
+    pub(super) particles_per_direction: Option<PerDirection>,
     pub(super) shapes: Vec<Line<ShapeForm>>,
     pub(super) velocity_m_s: Option<Vec<Finite>>,
+    pub(super) law: Option<Line<LawForm>>,
+    /// Whether the scheme's remedy averages over it: true.
+    pub(super) remedy: Option<bool>,
+    /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
+    pub(super) friction: Option<NotNegative>,
 }
 
 /// A part of the body. Particles stand at (k + ½) of their distance from zero, with whole numbers k.

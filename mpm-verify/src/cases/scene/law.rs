@@ -1,6 +1,6 @@
 //! The laws that a scene file can name.
 
-use super::fault::Source;
+use super::fault::{Line, Source};
 use super::form::{Form, LawForm, StrengthForm};
 use crate::error::Error;
 use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, NeoHookean, NewtonianFluid, SharedLaw, Strength};
@@ -50,11 +50,13 @@ impl Source {
         let mut form: Form = self.parse()?;
         if self.weaker != 1.0 {
             let place = form.law.span();
+            if !form.laws().any(|law| matches!(law.get_ref(), LawForm::HenckyJ2 { .. })) {
+                return Err(self.fault(&place, "no strength to be divided: hencky-j2 has one"));
+            }
             let phases = form.phases.iter_mut().filter_map(|phase| phase.as_mut().law.as_mut());
-            for law in phases.chain([form.law.as_mut()]) {
-                let LawForm::HenckyJ2 { strength, .. } = law else {
-                    return Err(self.fault(&place, "no strength to be divided: hencky-j2 has one"));
-                };
+            let others = form.bodies.iter_mut().filter_map(|body| body.as_mut().law.as_mut()).map(Line::as_mut);
+            for law in phases.chain([form.law.as_mut()]).chain(others) {
+                let LawForm::HenckyJ2 { strength, .. } = law else { continue };
                 match strength {
                     StrengthForm::Undrained { shear_strength_pa: peak } | StrengthForm::Perfect { norm_pa: peak } => {
                         peak.0 /= self.weaker;

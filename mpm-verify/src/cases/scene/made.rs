@@ -1,4 +1,4 @@
-//! Body and steps made from a scene file, in words: a wrong unit shows here.
+//! Bodies and steps made from a scene file, in words: a wrong unit shows here.
 
 use super::fault::Line;
 use super::form::LoadForm;
@@ -6,7 +6,7 @@ use super::phase::Phase;
 use super::setup::Setup;
 
 impl<const D: usize> Setup<D> {
-    /// Size of the body (m).
+    /// Size of all bodies together (m).
     pub(super) fn reach(&self) -> [f64; D] {
         std::array::from_fn(|a| {
             let along = || self.seeds.places.iter().map(|x| x[a]);
@@ -15,10 +15,11 @@ impl<const D: usize> Setup<D> {
         })
     }
 
-    /// Description of the body and of every phase.
+    /// Description of the bodies and of every phase.
     pub(super) fn made(&self) -> Vec<String> {
         let reach = self.reach();
-        let density = self.form.body.get_ref().density_kg_m3.0;
+        let densities = || self.form.all_bodies().map(|body| body.get_ref().density_kg_m3.0);
+        let density = densities().fold(0.0, f64::max);
         // Σ |g| times the reach: the stress below a column as high as the body.
         let weight = |load: &Line<LoadForm>| match load.get_ref() {
             LoadForm::Gravity { acceleration_m_s2: g, .. } => {
@@ -28,22 +29,23 @@ impl<const D: usize> Setup<D> {
         };
         let weight = self.form.loads.iter().map(weight).fold(0.0, f64::max);
         let size: Vec<String> = reach.iter().map(|reach| format!("{reach:.2}")).collect();
-        let volume: f64 = self.seeds.volumes.iter().sum();
         let of = |phase: &Phase| {
             let strength = phase.strength.map_or(String::new(), |s| format!(", undrained shear strength {s:.0} Pa"));
+            let laws = [&phase.law].into_iter().chain(&self.others).zip(densities());
+            let speed = laws.map(|(law, density)| law.wave_speed(density)).fold(0.0, f64::max);
             format!(
-                "Phase {}: speed of sound {:.1} m/s{strength}; {} steps of {:.3e} s.",
-                phase.name,
-                phase.law.wave_speed(density),
-                phase.steps,
-                phase.dt
+                "Phase {}: speed of sound {speed:.1} m/s{strength}; {} steps of {:.3e} s.",
+                phase.name, phase.steps, phase.dt
             )
         };
         let unit = ["m", "m²", "m³"][D - 1];
-        let body = format!(
-            "Body: {} m, {volume:.2} {unit}, {density} kg/m³; its height weighs {weight:.0} Pa.",
-            size.join(" × ")
-        );
-        std::iter::once(body).chain(self.phases.iter().map(of)).collect()
+        let each = self.form.all_bodies().zip(self.ranges()).map(|(body, range)| {
+            let (body, volume) = (body.get_ref(), self.seeds.volumes[range].iter().sum::<f64>());
+            format!("{}: {volume:.2} {unit}, {} kg/m³", body.name(), body.density_kg_m3.0)
+        });
+        let each: Vec<String> = each.collect();
+        let all =
+            format!("Bodies: {} m; {}; their height weighs at most {weight:.0} Pa.", size.join(" × "), each.join("; "));
+        std::iter::once(all).chain(self.phases.iter().map(of)).collect()
     }
 }

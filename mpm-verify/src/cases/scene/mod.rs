@@ -3,6 +3,7 @@
 //!
 //! The format: `docs/reference/scene-files.md`.
 
+mod body;
 mod fault;
 mod form;
 mod law;
@@ -42,7 +43,7 @@ pub struct SceneFile {
     pub spec: RunSpec,
     /// The title in the file.
     pub title: String,
-    /// Body and steps made from the file, a line each: a wrong unit shows here.
+    /// Bodies and steps made from the file, a line each: a wrong unit shows here.
     pub made: Vec<String>,
     /// Height of the body, along the last axis (m).
     pub height: f64,

@@ -76,7 +76,14 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
     Ok(scheme)
 }
 
-pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Result<Vec<Phase>, Error> {
+/// The phases of a scene whose bodies after the first one have the laws `others`.
+pub(super) fn phases(
+    source: &Source,
+    form: &Form,
+    scheme: Scheme,
+    h: f64,
+    others: &[SharedLaw],
+) -> Result<Vec<Phase>, Error> {
     let porosity = form.water.as_ref().map(|w: &Line<WaterForm>| w.get_ref().porosity.0);
     let own = law_of(form.law.get_ref(), porosity).map_err(|e| source.at(&form.law, e))?;
     let (solver, row) = (form.solver.get_ref(), form.output.get_ref().row_s.0);
@@ -92,7 +99,9 @@ pub(super) fn phases(source: &Source, form: &Form, scheme: Scheme, h: f64) -> Re
             let said = "another kind of law than the scene's: only its constants may change";
             return Err(source.at(phase, said));
         }
-        let speed = law.wave_speed(form.body.get_ref().density_kg_m3.0);
+        let laws = [&law].into_iter().chain(others).zip(form.all_bodies());
+        let speeds = laws.map(|(law, body)| law.wave_speed(body.get_ref().density_kg_m3.0));
+        let speed = speeds.fold(0.0, f64::max);
         let (dt, steps_per_row) = match (solver.time_step_s, solver.cfl) {
             (Some(dt), None) => (dt.0, (row / dt.0).round().max(1.0)),
             (None, Some(cfl)) => {

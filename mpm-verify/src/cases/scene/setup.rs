@@ -1,5 +1,6 @@
 //! From a scene file to scenes: grid, body, what acts on it, phase by phase.
 
+use super::body::{check_bodies, other_laws};
 use super::fault::{Line, Source};
 use super::form::{
     AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, SupportForm,
@@ -17,7 +18,6 @@ use mpm_core::poro::{self, Face, PressureSpace};
 use mpm_core::stage::{
     Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise,
 };
-use std::sync::Arc;
 
 /// Share of the lumped mass with the midpoint rule: with the consistent mass alone a body that flies is singular.
 const LUMPED: f64 = 0.1;
@@ -35,8 +35,11 @@ pub(super) struct Setup<const D: usize> {
     pub(super) form: Form,
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
-    grid: Grid<D>,
+    pub(super) grid: Grid<D>,
     pub(super) seeds: Seeds<D>,
+    /// Where the particles of every body end among all, and the laws of the bodies after the first one.
+    pub(super) ends: Vec<usize>,
+    pub(super) others: Vec<SharedLaw>,
     pub(super) spacing: f64,
     /// Size as it was weighed.
     pub(super) size: Size,
@@ -47,19 +50,16 @@ impl<const D: usize> Setup<D> {
     pub(super) fn new(source: &Source, form: Form) -> Result<Self, Error> {
         let grid = grid(source, &form)?;
         let scheme = scheme(source, &form)?;
-        let body = form.body.get_ref();
-        let spacing = grid.h / f64::from(body.particles_per_direction.0);
-        let size = weigh(source, body, &grid, spacing, scheme)?;
+        check_bodies(source, &form, scheme)?;
+        let spacing = grid.h / f64::from(per_direction(&form));
+        let size = weigh(source, &form, &grid, spacing, scheme)?;
         if let Some(why) = size.too_large(source.memory) {
             return Err(source.at(&form.grid, why + "; larger cells or fewer particles_per_direction make it smaller"));
         }
-        let velocity = match &body.velocity_m_s {
-            Some(given) => vector(source, &form.body, "velocity_m_s", given)?,
-            None => [0.0; D],
-        };
-        let seeds = seed(source, body, &grid, spacing, velocity)?;
-        let phases = phases(source, &form, scheme, grid.h)?;
-        let setup = Self { scheme, phases, grid, seeds, spacing, size, form };
+        let (seeds, ends) = seed(source, &form, &grid, spacing)?;
+        let others = other_laws(source, &form)?;
+        let phases = phases(source, &form, scheme, grid.h, &others)?;
+        let setup = Self { scheme, phases, grid, seeds, ends, others, spacing, size, form };
         setup.check(source)?;
         Ok(setup)
     }
@@ -95,7 +95,7 @@ impl<const D: usize> Setup<D> {
                 other == name && self.phases.iter().any(|p| acts(others, &p.name) && acts(phases, &p.name))
             };
             if named[..k].iter().any(|other| same(&other)) {
-                return Err(source.fault(at, format!("a second support or contact {name:?} in a phase")));
+                return Err(source.fault(at, format!("a second support, contact or body {name:?} in a phase")));
             }
         }
         for contact in &self.form.contacts {
@@ -156,7 +156,7 @@ impl<const D: usize> Setup<D> {
 
     /// Particles per cell.
     pub(super) fn per_cell(&self) -> u32 {
-        self.form.body.get_ref().particles_per_direction.0.pow(D as u32)
+        per_direction(&self.form).pow(D as u32)
     }
 
     /// How B-splines meet walls.
@@ -167,8 +167,8 @@ impl<const D: usize> Setup<D> {
         }
     }
 
-    /// Supports, then contacts, in the scene's order: place in the file, name, phases.
-    fn named(&self) -> [Vec<Named<'_>>; 2] {
+    /// Supports, then contacts and bodies, in the scene's order: place in the file, name, phases.
+    fn named(&self) -> [Vec<Named<'_>>; 3] {
         let supports = self.form.supports.iter().map(|s| match s.get_ref() {
             SupportForm::Wall { name, phases, .. } | SupportForm::Nodes { name, phases, .. } => {
                 (s.span(), &*name.0, &phases[..])
@@ -176,13 +176,17 @@ impl<const D: usize> Setup<D> {
         });
         let contacts = self.form.contacts.iter();
         let contacts = contacts.map(|c| (c.span(), &*c.get_ref().name.0, &c.get_ref().phases[..]));
-        [supports.collect(), contacts.collect()]
+        let bodies = self.form.all_bodies().map(|body| (body.span(), body.get_ref().name(), &[][..]));
+        [supports.collect(), contacts.collect(), bodies.collect()]
     }
 
-    /// Names of supports, then of contacts, of a phase, in the scene's order.
-    pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 2] {
-        self.named()
-            .map(|all| all.iter().filter(|(.., phases)| acts(phases, phase)).map(|(_, name, _)| *name).collect())
+    /// Names of supports, then of contacts and of bodies that touch others, of a phase, in the scene's order.
+    pub(super) fn parts(&self, phase: &str) -> [Vec<&str>; 3] {
+        let mut all = self.named();
+        if !self.form.slides() {
+            all[2].clear();
+        }
+        all.map(|all| all.iter().filter(|(.., phases)| acts(phases, phase)).map(|(_, name, _)| *name).collect())
     }
 
     /// The error of a phase that can't begin, with the place of a support that holds nothing.
@@ -190,7 +194,7 @@ impl<const D: usize> Setup<D> {
         let acting = |(.., phases): &&Named<'_>| acts(phases, &phase.name);
         match *error {
             mpm_core::Error::Input { what: HOLDS_NOTHING, value, allowed } => {
-                let [supports, _] = self.named();
+                let [supports, ..] = self.named();
                 let at = supports.iter().filter(acting).nth(value as usize).map_or(0..0, |(at, ..)| at.clone());
                 source.fault(&at, format!("a support that holds no node of its own: {allowed}"))
             }
@@ -205,7 +209,7 @@ impl<const D: usize> Setup<D> {
             Scheme::Explicit(_) => mpm_solvers::solver(self.scheme, scene, self.explicit(phase)?),
             Scheme::Implicit(_) => mpm_solvers::implicit(self.scheme, scene, self.implicit(phase)),
             Scheme::Poro(_) => {
-                let water = self.water(&scene.body.particles)?;
+                let water = self.water(&scene.bodies.particles)?;
                 mpm_solvers::poro(self.scheme, scene, water, self.poro(phase))
             }
         }
@@ -213,26 +217,13 @@ impl<const D: usize> Setup<D> {
 
     /// The scene of a phase.
     fn scene(&self, phase: &Phase) -> Result<Scene<D>, mpm_core::Error> {
-        let body = self.form.body.get_ref();
-        let Seeds { places, volumes, velocities } = &self.seeds;
-        let (density, lattice) = (body.density_kg_m3.0, self.spacing.powi(D as i32));
-        // Domains are alike: those of a table that has volumes are as large as its largest particle.
-        let largest = volumes.iter().copied().fold(0.0, f64::max);
-        let size = if largest == lattice { self.spacing } else { largest.powf(1.0 / D as f64) };
-        let mut particles = Particles::new(places.clone(), lattice, density, [0.5 * size.min(self.grid.h); D])?;
-        if volumes.iter().any(|volume| *volume != lattice) {
-            particles.mass = volumes.iter().map(|volume| density * volume).collect();
-            (particles.volume, particles.reference_volume) = (volumes.clone(), volumes.clone());
-        }
-        particles.velocity.clone_from(velocities);
-        let loads = self.loads(&phase.name, &particles)?;
-        let contacts = self.contacts(&phase.name)?;
+        let bodies = self.bodies(phase)?;
         Ok(Scene {
             grid: self.grid,
-            body: Body::new(Arc::clone(&phase.law), particles)?,
-            loads,
+            loads: self.loads(&phase.name, &bodies.particles)?,
+            bodies,
             constraints: self.constraints(&phase.name),
-            contacts,
+            contacts: self.contacts(&phase.name)?,
         })
     }
 
@@ -415,6 +406,11 @@ fn end_of(form: EndForm) -> End {
         EndForm::Lo => End::Lo,
         EndForm::Hi => End::Hi,
     }
+}
+
+/// Particles along a side of a cell.
+fn per_direction(form: &Form) -> u32 {
+    form.body.get_ref().particles_per_direction.map_or(1, |count| count.0)
 }
 
 fn own_axis<const D: usize, T>(source: &Source, at: &Line<T>, axis: AxisForm) -> Result<(), Error> {

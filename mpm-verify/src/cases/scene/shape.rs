@@ -2,10 +2,10 @@
 //! lie in one of its shapes, or where a table has them.
 
 use super::fault::{Line, Source};
-use super::form::{BodyForm, Ends, Finite, Region, ShapeForm};
+use super::form::{Ends, Finite, Form, Region, ShapeForm};
 use super::polygon::{Polygon, crossing};
 use crate::cases::prelude::*;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 /// Most particles of a scene.
 pub(super) const MOST: usize = 50_000_000;
@@ -29,18 +29,27 @@ pub(super) struct Seeds<const D: usize> {
     pub(super) velocities: Vec<[f64; D]>,
 }
 
-/// The particles, shape by shape; a point of two shapes is there once.
+/// The particles, body by body and shape by shape, and where those of every body end; a point of two shapes is there once.
+///
+/// # Errors
+/// A shape without a particle, off the grid or that can't be read; too many particles, or two at one place.
 pub(super) fn seed<const D: usize>(
     source: &Source,
-    body: &BodyForm,
+    form: &Form,
     grid: &Grid<D>,
     spacing: f64,
-    velocity: [f64; D],
-) -> Result<Seeds<D>, Error> {
+) -> Result<(Seeds<D>, Vec<usize>), Error> {
     let mut seeds = Seeds::default();
-    let mut taken = HashSet::new();
-    let alone = body.shapes.len() == 1;
-    for shape in &body.shapes {
+    let mut taken = HashMap::new();
+    let shapes =
+        || form.all_bodies().enumerate().flat_map(|(k, body)| body.get_ref().shapes.iter().map(move |s| (k, body, s)));
+    let alone = shapes().count() == 1;
+    let mut ends = vec![0; form.bodies.len() + 1];
+    for (k, body, shape) in shapes() {
+        let velocity = match &body.get_ref().velocity_m_s {
+            Some(given) => vector(source, body, "velocity_m_s", given)?,
+            None => [0.0; D],
+        };
         let before = seeds.places.len();
         if let ShapeForm::Particles { file } = shape.get_ref() {
             read(source, shape, file, grid.h, &mut seeds)?;
@@ -50,9 +59,18 @@ pub(super) fn seed<const D: usize>(
             if form.points() > LOOKED_AT * MOST as f64 {
                 return Err(too_many(source, shape));
             }
-            for k in form.lattice() {
-                let x = k.map(|k| (k as f64 + 0.5) * spacing);
-                if (form.holds)(&x) && (alone || taken.insert(k)) {
+            for point in form.lattice() {
+                let x = point.map(|k| (k as f64 + 0.5) * spacing);
+                let holds = (form.holds)(&x);
+                let first = if holds && !alone {
+                    *taken.entry(point).or_insert((k, seeds.places.len()))
+                } else {
+                    (k, usize::MAX)
+                };
+                if holds && first.0 != k {
+                    return Err(source.at(shape, format!("a particle of two bodies at {x:?} m")));
+                }
+                if holds && first.1 >= seeds.places.len() {
                     if seeds.places.len() - before >= room {
                         return Err(too_many(source, shape));
                     }
@@ -68,13 +86,14 @@ pub(super) fn seed<const D: usize>(
             return Err(source.at(shape, said));
         }
         check_on_grid(source, shape, grid, &seeds.places[before..])?;
+        ends[k] = count;
     }
-    let table = body.shapes.iter().find(|shape| matches!(shape.get_ref(), ShapeForm::Particles { .. }));
+    let table = shapes().map(|(.., shape)| shape).find(|shape| matches!(shape.get_ref(), ShapeForm::Particles { .. }));
     match table.and_then(|table| Some((table, overlapping(&seeds)?))) {
-        None => Ok(seeds),
+        None => Ok((seeds, ends)),
         Some((table, [j, k])) => {
             let [a, b] = [j, k].map(|k| seeds.places[k]);
-            let said = format!("particles {j} and {k} of the body, counted from 0, overlap: at {a:?} and {b:?} m");
+            let said = format!("particles {j} and {k} of the bodies, counted from 0, overlap: at {a:?} and {b:?} m");
             Err(source.at(table, said))
         }
     }

@@ -3,6 +3,7 @@ use crate::cases;
 use crate::parameter::Parameters;
 use std::path::PathBuf;
 
+mod bodies;
 mod pairs;
 
 fn shipped(name: &str) -> PathBuf {

@@ -1,5 +1,6 @@
 //! Observation of a scene's run: phase by phase, row by row.
 
+use super::body::moved;
 use super::phase::Phase;
 use super::setup::Setup as Made;
 use crate::cases::prelude::*;
@@ -75,11 +76,8 @@ impl<const D: usize> Course<D> {
         let mut forces = Vec::new();
         for (k, name) in self.parts.iter().enumerate() {
             let place = |names: &[&str]| names.iter().position(|n| n == name);
-            let part = match (place(&here[0]), place(&here[1])) {
-                (Some(place), _) => Some(Part::Constraint(place)),
-                (None, Some(place)) => Some(Part::Contact(place)),
-                (None, None) => None,
-            };
+            let kinds: [fn(usize) -> Part; 3] = [Part::Constraint, Part::Contact, Part::Body];
+            let part = here.iter().zip(kinds).find_map(|(names, kind)| place(names).map(kind));
             let now = part.map_or([0.0; 3], |part| {
                 let reaction = run.on(part);
                 match self.setup.scheme {
@@ -100,7 +98,7 @@ impl<const D: usize> Course<D> {
 }
 
 /// Names of the columns, which live as long as the program: a scene is read once in it.
-fn columns<const D: usize>(scheme: Scheme, parts: &[String]) -> Vec<&'static str> {
+fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) -> Vec<&'static str> {
     let named = |name: String| -> &'static str { Box::leak(name.into_boxed_str()) };
     let [energy, force] = ["J", "N"].map(|unit| per_depth(unit, D));
     let mut all = vec![
@@ -118,6 +116,9 @@ fn columns<const D: usize>(scheme: Scheme, parts: &[String]) -> Vec<&'static str
         for axis in ["x", "y", "z"].into_iter().take(D) {
             all.push(named(format!("{name}_{axis} ({force})")));
         }
+    }
+    for name in bodies {
+        all.extend(["x", "y", "z"].into_iter().take(D).map(|axis| named(format!("{name}_moved_{axis} (m)"))));
     }
     all
 }
@@ -146,7 +147,7 @@ impl<const D: usize> Problem<D> for Course<D> {
                 }
             }
         }
-        let columns = columns::<D>(setup.scheme, &parts);
+        let columns = columns::<D>(setup.scheme, &parts, &setup.several());
         Ok(Self { setup, parts, columns })
     }
 
@@ -187,6 +188,8 @@ impl<const D: usize> Problem<D> for Course<D> {
         }
         row.extend(run.water().map(|water| water.outflow));
         row.extend(self.forces(seen, run));
+        let bodies = run.scene().bodies.each.iter().take(self.setup.several().len());
+        row.extend(bodies.flat_map(|body| moved(run.particles(), body)));
         Ok(Row(self.columns.iter().copied().zip(row).collect()))
     }
 
@@ -217,7 +220,13 @@ impl<const D: usize> Problem<D> for Course<D> {
                 columns = columns.field(name, unit, field);
             }
         }
-        columns.jacobian()
+        let columns = columns.jacobian();
+        match self.setup.ends.len() {
+            1 => columns,
+            _ => {
+                columns.each("body", "-", |p, k| self.setup.ends.partition_point(|end| *end <= p.id[k] as usize) as f64)
+            }
+        }
     }
 
     fn metrics(&self, _: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {

@@ -1,7 +1,7 @@
 //! Size of a scene from its own numbers, before anything is built.
 
 use super::fault::Source;
-use super::form::{BodyForm, Ends, ShapeForm};
+use super::form::{Ends, Form, ShapeForm};
 use super::shape::{MOST, too_many};
 use crate::cases::prelude::*;
 use crate::size::Size;
@@ -28,19 +28,19 @@ fn measure(shape: &ShapeForm, dimension: usize) -> f64 {
     }
 }
 
-/// Size of a body of particles `spacing` (m) apart on a grid, with what `scheme` keeps for it.
+/// Size of the bodies of particles `spacing` (m) apart on a grid, with what `scheme` keeps for it.
 ///
 /// # Errors
 /// A shape has more particles than a scene may have.
 pub(super) fn weigh<const D: usize>(
     source: &Source,
-    body: &BodyForm,
+    form: &Form,
     grid: &Grid<D>,
     spacing: f64,
     scheme: Scheme,
 ) -> Result<Size, Error> {
     let mut particles = 0.0;
-    for shape in &body.shapes {
+    for shape in form.all_bodies().flat_map(|body| &body.get_ref().shapes) {
         let count = measure(shape.get_ref(), D) / spacing.powi(D as i32);
         if count > MOST as f64 {
             return Err(too_many(source, shape));

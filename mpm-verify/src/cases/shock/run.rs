@@ -121,7 +121,7 @@ impl Problem<1> for Bar {
         let count = (LENGTH / size).round() as usize;
         let mut particles = self.setup.particles_at(by_rows([count], size), size, DENSITY)?;
         particles.velocity.fill([-self.speed]);
-        let scene = Scene::new(Grid::new(h, [axis])?, Body::new(law, particles)?).constrain(roller(0, End::Lo));
+        let scene = Scene::new(Grid::new(h, [axis])?, Bodies::new(law, particles)?).constrain(roller(0, End::Lo));
         self.setup.explicit(scene, self.dt, 0.0)
     }
 

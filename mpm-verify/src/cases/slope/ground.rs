@@ -136,7 +136,7 @@ impl<const D: usize> Ground<D> {
             g[1] = -GRAVITY * smooth_rise(time, rise);
             g
         }));
-        let body = Body::new(self.slope.law(strength)?, particles)?;
+        let body = Bodies::new(self.slope.law(strength)?, particles)?;
         Ok(Scene::new(self.grid()?, body).load(weight).constrain_all(walls::<D>()))
     }
 }

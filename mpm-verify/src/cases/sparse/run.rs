@@ -188,7 +188,7 @@ impl Clouds {
         let axis = Axis::walls(0.0, self.cells());
         let grid = Grid::new(self.setup.h, [axis, axis])?;
         let ends = [(0, End::Lo), (0, End::Hi), (1, End::Lo), (1, End::Hi)];
-        let scene = Scene::new(grid, Body::new(self.law, self.particles_of(k)?)?)
+        let scene = Scene::new(grid, Bodies::new(self.law, self.particles_of(k)?)?)
             .load(forcing(&self.solution))
             .constrain_all(ends.map(|(axis, end)| roller(axis, end)));
         match self.setup.scheme {

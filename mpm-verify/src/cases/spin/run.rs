@@ -78,7 +78,7 @@ impl Problem<2> for Spin {
             let earlier = [cos * x - sin * y, sin * x + cos * y];
             *v = [-self.omega * earlier[1], self.omega * earlier[0]];
         }
-        let scene = Scene::new(grid, Body::new(self.law, particles)?);
+        let scene = Scene::new(grid, Bodies::new(self.law, particles)?);
         self.setup.explicit(scene, self.dt, 0.0)
     }
 

@@ -220,7 +220,7 @@ impl<const D: usize> Problem<D> for Stretching {
         let room = longest as usize + HELD;
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
         let held = Held { middle: [0.0; D], beyond: FREE as f64 * h, rate: self.rate };
-        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(held);
+        let scene = Scene::new(grid, Bodies::new(self.law, particles)?).constrain(held);
         match self.setup.scheme {
             Scheme::Explicit(e) => {
                 let settings = Settings::new(self.dt).remedy(e.remedy.build());

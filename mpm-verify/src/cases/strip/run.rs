@@ -176,7 +176,7 @@ impl Setup<Strip> {
         let spacing = self.spacing();
         // Nothing moves by its weight: any density will do.
         let particles = self.particles_at(by_rows([cells(SIDE) * PER_CELL; D], spacing), spacing, 1000.0)?;
-        let scene = Scene::new(grid, Body::new(law, particles)?)
+        let scene = Scene::new(grid, Bodies::new(law, particles)?)
             .constrain(clamp(up, End::Lo))
             .constrain_all((0..up).flat_map(|axis| [End::Lo, End::Hi].map(|end| roller(axis, end))));
         let (kappa, porosity) = (self.kappa(), self.porosity);
@@ -184,7 +184,7 @@ impl Setup<Strip> {
         let c = kappa * (1.0 - porosity).powi(2) / porosity.powi(3);
         let surface = move |x: &[f64; D]| x[up] > SIDE - spacing;
         let downward = move |pressure: f64| from_fn(|a| if a == up { -pressure } else { 0.0 });
-        let (particles, top) = (&scene.body.particles, (up, End::Hi));
+        let (particles, top) = (&scene.bodies.particles, (up, End::Hi));
         let drained = Face::drained(particles, surface, top, self.drain * kappa / h);
         let mut water = Water::new(porosity, Conductivity::KozenyCarman(c)).face(drained);
         let rests = self.surcharge();

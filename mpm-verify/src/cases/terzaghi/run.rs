@@ -128,7 +128,7 @@ impl Problem<1> for Setup<Terzaghi> {
     fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
         let scene = column(self, Hencky::new(self.young_modulus, self.poisson_ratio)?)?;
         let (load, h) = (self.load, self.h);
-        let top = Face::loaded(&scene.body.particles, topmost(h), (0, End::Hi), move |_| [-load]);
+        let top = Face::loaded(&scene.bodies.particles, topmost(h), (0, End::Hi), move |_| [-load]);
         let water = Water::new(self.porosity, Conductivity::Constant(self.kappa()))
             .drained(move |x| x[0] > HEIGHT - 0.25 * h)
             .face(top);

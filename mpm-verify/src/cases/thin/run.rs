@@ -88,7 +88,7 @@ impl Problem<2> for Swing {
             let above = x[1] - foot - 0.5 * DEPTH;
             *v = [-speed * above * self.mode.turn(x[0]), speed * self.mode.deflection(x[0])];
         }
-        let scene = Scene::new(grid, Body::new(self.law, particles)?).constrain(roller(0, End::Lo));
+        let scene = Scene::new(grid, Bodies::new(self.law, particles)?).constrain(roller(0, End::Lo));
         self.setup.moving(scene, self.dt, 0.0)
     }
 

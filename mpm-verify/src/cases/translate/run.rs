@@ -107,7 +107,7 @@ impl Problem<2> for Translation {
         let mut particles = Particles::new(self.setup.start_at(places), volume, DENSITY, half)?
             .deformed(|x| (*x, Matrix2::identity() * stretch));
         particles.velocity.fill([self.speed, 0.0]);
-        let scene = Scene::new(grid, Body::new(self.law, particles)?);
+        let scene = Scene::new(grid, Bodies::new(self.law, particles)?);
         self.setup.explicit(scene, self.dt, 0.0)
     }
 

@@ -1,14 +1,20 @@
-use super::*;
-use crate::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
-use crate::eights::{block, matrix_entries, store};
-use crate::grid::{Axis, Grid};
-use crate::lattice::Lattice;
-use crate::material::{Law, NeoHookean};
-use crate::number::Lanes;
-use crate::order::stencil_order;
-use crate::projection::{Space, space};
-use crate::space::{determinant, determinant_of_entries, embed};
-use crate::tensor::SymmetricTensor;
+//! Averages of the remedies: what Π keeps, and how J̄ is formed.
+
+use mpm_core::Particles;
+use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::eights::{block, matrix_entries, store};
+use mpm_core::eights::{blocks, numbers};
+use mpm_core::explicit::Remedy;
+use mpm_core::explicit::remedy::*;
+use mpm_core::grid::{Axis, Grid};
+use mpm_core::lattice::Lattice;
+use mpm_core::material::{Law, NeoHookean};
+use mpm_core::number::Eight;
+use mpm_core::number::Lanes;
+use mpm_core::order::stencil_order;
+use mpm_core::projection::{Space, space};
+use mpm_core::space::{determinant, determinant_of_entries, embed};
+use mpm_core::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
 use proptest::prelude::*;
 
@@ -45,7 +51,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
 /// The deformation of particles by these ΔF.
 fn deformation<const D: usize>(remedy: &dyn Remedy<D>, delta_f: &[SMatrix<f64, D, D>]) -> Deformation<D> {
     let n = delta_f.len();
-    let mut deformation = Deformation::of(remedy, n);
+    let mut deformation = Deformation::of(remedy, &[n]);
     if remedy.averages_onto().is_some() {
         let mut chunk = deformation.chunk();
         for k in 0..blocks(n) {

@@ -47,7 +47,7 @@ fn strains_are_of_the_new_velocities<const D: usize, const S: usize, B: Basis<S>
     }
     frozen.lattice.unfold(&mut nodes);
     let mut musl = Musl::default();
-    let sweeps = musl.prepare(&frozen.lattice, &frozen.particles, &frozen.slabs, &nodes, &[]);
+    let sweeps = musl.prepare(&frozen.lattice, &frozen.particles, std::slice::from_ref(&frozen.slabs), &nodes, &[]);
     assert_eq!(sweeps, 1);
     let flip = Flip::default();
     let places = frozen.particles.position.clone();
@@ -112,7 +112,7 @@ fn what_is_held_has_no_other_velocity_in_strains() {
     let slope = |held: &[Prescribed]| {
         let mut musl = Musl::default();
         let (particles, slabs) = (&frozen.particles, &frozen.slabs);
-        musl.prepare(&frozen.lattice, particles, slabs, &nodes, held);
+        musl.prepare(&frozen.lattice, particles, std::slice::from_ref(slabs), &nodes, held);
         let received = gathered(&musl, &frozen, &nodes, &[0.1 * H]);
         received.gradient(0, 0).part(0)
     };

@@ -1,13 +1,19 @@
-use super::*;
-use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
-use crate::grid::{Axis, Grid, Side};
-use crate::lattice::{Lattice, Stencils};
-use crate::nodes::Node;
-use crate::number::Lanes;
-use crate::order::stencil_order;
-use crate::parallel::scatter;
-use crate::stage::{Bound, Prescribed};
-use crate::tensor::SymmetricTensor;
+//! Maps of the transfers to the grid and back, each alone.
+
+use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::explicit::transfer::*;
+use mpm_core::grid::{Axis, Grid, Side};
+use mpm_core::lattice::{Lattice, Stencils};
+use mpm_core::nodes::NodalState;
+use mpm_core::nodes::Node;
+use mpm_core::number::Lanes;
+use mpm_core::number::{EIGHT, Eight};
+use mpm_core::order::{Slabs, stencil_order};
+use mpm_core::parallel::scatter;
+use mpm_core::stage::{Bound, Prescribed};
+use mpm_core::tensor::SymmetricTensor;
+use mpm_core::{Basis, Particles};
+use nalgebra::SMatrix;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -55,7 +61,7 @@ fn receive<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>>(
 struct Frozen<const D: usize, const S: usize, B> {
     lattice: Lattice<D, S, B>,
     particles: Particles<D>,
-    slabs: Vec<Range<usize>>,
+    slabs: Slabs,
     nodes: Vec<NodalState>,
 }
 
@@ -109,7 +115,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
             }
         }
         lattice.unfold(&mut self.nodes);
-        transfer.prepare(lattice, p, &self.slabs, &self.nodes, &[]);
+        transfer.prepare(lattice, p, std::slice::from_ref(&self.slabs), &self.nodes, &[]);
         let p = &mut self.particles;
         for k in 0..p.position.len() {
             let (v, b) = (&mut p.velocity[k], p.affine.get_mut(k));
@@ -406,7 +412,7 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
         [Prescribed { node: wall, axis: 0, velocity: 0.0, full_velocity: 0.0, bound: Bound::Equal, force: 0.0, by: 0 }];
     let mut xpic = Xpic::new(1).unwrap();
     let (particles, slabs, nodes) = (&frozen.particles, &frozen.slabs, &frozen.nodes);
-    assert_eq!(xpic.prepare(lattice, particles, slabs, nodes, &held), 0);
+    assert_eq!(xpic.prepare(lattice, particles, std::slice::from_ref(slabs), nodes, &held), 0);
     let mut v = [-1.0];
     let half_size = &frozen.particles.half_size;
     let moving = receive(&xpic, lattice, &[0.0], half_size, nodes, &mut v, None);
