@@ -379,8 +379,7 @@ impl Case {
     /// Verdicts on the runs of the case together.
     #[must_use]
     pub fn judge_study(&self, records: &[Record]) -> Vec<Verdict> {
-        let verdicts = self.checks.iter().map(|c| c.of_study(records));
-        verdicts.flatten().collect()
+        self.checks.iter().flat_map(|c| c.of_study(records)).collect()
     }
 
     /// The schemes that it compares, each once: those of its plan, by transfer, basis and remedy.

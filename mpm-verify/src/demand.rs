@@ -151,8 +151,7 @@ impl<P: ParameterSet> Demand<P> {
             Passage::NotJudged(reason) => return Some(Finding::not_applicable(name, reason)),
             Passage::Judged => {}
         }
-        let own = self.why.as_ref().map(|why| why(run));
-        let why = own.unwrap_or_else(|| why.to_owned());
+        let why = self.why.as_ref().map_or_else(|| why.to_owned(), |why| why(run));
         let value = (self.quantity.value)(run);
         let found = self.bound.finding(name.to_owned(), value, run, why);
         Some(match &self.scale {
@@ -345,8 +344,7 @@ impl<P: ParameterSet> CheckOf<P> {
             Subject::Own(found) => found(&run),
             Subject::Run(demands) => {
                 let why = (self.why)(&run);
-                let found = demands.iter().filter_map(|d| d.finding(&run, &why));
-                found.map(|f| self.scaled(f, &run)).collect()
+                demands.iter().filter_map(|d| d.finding(&run, &why)).map(|f| self.scaled(f, &run)).collect()
             }
             Subject::Order { .. } | Subject::Pair { .. } => Vec::new(),
         }

@@ -325,8 +325,7 @@ impl<'a> Figure<'a> {
     /// Draws the panels that have runs, writes their points and hangs the picture.
     pub(crate) fn draw(self, gallery: &mut Gallery) -> Result<(), Error> {
         let all = self.panels.len();
-        let charts = self.panels.into_iter().filter_map(Panel::chart);
-        let mut charts: Vec<Chart> = charts.collect();
+        let mut charts: Vec<Chart> = self.panels.into_iter().filter_map(Panel::chart).collect();
         if charts.is_empty() || (self.whole && charts.len() < all) {
             return Ok(());
         }

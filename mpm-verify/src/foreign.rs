@@ -318,8 +318,7 @@ impl Given {
     /// Two columns as points.
     pub(crate) fn points(&self, [x, y]: [&Asked; 2]) -> Vec<[f64; 2]> {
         let ys = self.column(y).iter();
-        let both = self.column(x).iter().zip(ys);
-        both.map(|(x, y)| [*x, *y]).collect()
+        self.column(x).iter().zip(ys).map(|(x, y)| [*x, *y]).collect()
     }
 
     /// The places in the table of the particles that start at `seeded` (m), where parts of the size `spacing` (m) along

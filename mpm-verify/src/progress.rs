@@ -59,8 +59,7 @@ pub(crate) fn so_far(now: Progress, seconds: f64) -> String {
 /// A time in words.
 fn lasting(seconds: f64) -> String {
     let units = [(86400.0, "d"), (3600.0, "h"), (60.0, "min")];
-    let unit = units.into_iter().find(|(of, _)| seconds >= *of);
-    let (of, name) = unit.unwrap_or((1.0, "s"));
+    let (of, name) = units.into_iter().find(|(of, _)| seconds >= *of).unwrap_or((1.0, "s"));
     format!("{:.1} {name}", seconds / of)
 }
 

@@ -173,8 +173,7 @@ impl Column {
     /// The observed order of a metric over the runs of the row, without those between levels.
     pub(crate) fn plain_order(title: impl Into<String>, metric: Metric) -> Self {
         Self::row(title, move |runs, _| {
-            let found = order(runs.iter().copied(), metric.name);
-            found.map_or_else(|| "–".to_owned(), |o| o.to_string())
+            order(runs.iter().copied(), metric.name).map_or_else(|| "–".to_owned(), |o| o.to_string())
         })
     }
 
@@ -334,8 +333,7 @@ impl ResultTable {
     /// The table of some runs, by case, scheme, level and changed parameters, and the runs it contains. A cell without
     /// a run is empty; a breakdown is shown once per row.
     pub(crate) fn fill<'a>(&self, records: impl IntoIterator<Item = &'a Record>) -> (Sheet, Vec<&'a Record>) {
-        let shown = records.into_iter().filter(|r| (self.shows)(r));
-        let mut shown: Vec<&Record> = shown.collect();
+        let mut shown: Vec<&Record> = records.into_iter().filter(|r| (self.shows)(r)).collect();
         let cases = distinct(shown.iter().map(|r| &r.case));
         shown.sort_by(|a, b| {
             let case = |r: &Record| cases.iter().position(|c| **c == r.case);

@@ -181,8 +181,7 @@ impl Table {
 
     /// Two columns as points, each of which `map` changes.
     pub(crate) fn pairs(&self, [x, y]: [&str; 2], map: impl Fn(f64, f64) -> (f64, f64)) -> Vec<(f64, f64)> {
-        let points = self.points(x, y).into_iter();
-        points.map(|(x, y)| map(x, y)).collect()
+        self.points(x, y).into_iter().map(|(x, y)| map(x, y)).collect()
     }
 
     /// The rows whose values in the first column are those of `keys`, in that order.

@@ -53,8 +53,7 @@ type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 /// A table, or nothing without rows.
 fn table<T>(title: &str, rows: impl IntoIterator<Item = T>, columns: &[Column<'_, T>]) -> String {
     let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect();
-    let sheet = Sheet::new(columns.iter().map(|(title, _)| *title));
-    let sheet = sheet.with(rows.into_iter().map(cells));
+    let sheet = Sheet::new(columns.iter().map(|(title, _)| *title)).with(rows.into_iter().map(cells));
     match sheet.rows.is_empty() {
         true => String::new(),
         false => format!("\n## {title}\n\n{}", sheet.markdown()),
@@ -87,8 +86,7 @@ fn workloads(bench: &Measurements) -> String {
     let operations = |m: &Measured| model::operations(kind(m).0, kind(m).1);
     let bandwidth = |m: &Measured| bytes(m) / m.wall_ns().map_or(f64::NAN, |s| s.median);
     let triad = |m: &Measured| {
-        let triad = bench.find("memory", "triad", m.threads);
-        let time = triad.and_then(Measured::wall_ns);
+        let time = bench.find("memory", "triad", m.threads).and_then(Measured::wall_ns);
         time.map_or(f64::NAN, |s| 1.0 / s.median)
     };
     table(
@@ -131,8 +129,7 @@ fn peers(bench: &Measurements) -> String {
 fn problems(bench: &Measurements) -> String {
     let rates = |one: &Measured| {
         let others = bench.of_group("problem").filter(|m| m.name == one.name);
-        let rates = others.map(|m| format!("{} on {}", spread(rate(m), 2), m.threads));
-        rates.collect::<Vec<String>>().join(", ")
+        others.map(|m| format!("{} on {}", spread(rate(m), 2), m.threads)).collect::<Vec<String>>().join(", ")
     };
     table(
         "Problems",
@@ -156,8 +153,7 @@ fn iterations(bench: &Measurements) -> String {
         spread(of(steps, part).and_then(per), 0)
     };
     let [forces, assembly, factors, solution] = newton::PARTS.map(|(part, _)| part);
-    let measured = newton::all().into_iter();
-    let measured = measured.filter_map(|steps| Some((of(&steps, newton::WHOLE)?.particles, steps)));
+    let measured = newton::all().into_iter().filter_map(|steps| Some((of(&steps, newton::WHOLE)?.particles, steps)));
     table(
         "Newton's iterations, one thread",
         measured,
@@ -214,8 +210,7 @@ fn write_rows(bench: &Measurements, out: &Path) -> Result<(), Error> {
 pub(super) fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
     let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
-    let series = names.into_iter().zip(markers).enumerate();
-    let series = series.map(|(k, (name, marker))| {
+    let series = names.into_iter().zip(markers).enumerate().map(|(k, (name, marker))| {
         let sizes = bench.of_group("scaling").filter(|m| m.name == name);
         let point = |m: &Measured| Some((m.particles as f64, m.cpu_ns()?.median));
         Series { marker, ..Series::line(name, sizes.filter_map(point).collect(), k) }

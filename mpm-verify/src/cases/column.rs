@@ -156,8 +156,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         let labels = ["steps (10⁵)", "rms distance from rest (m)"];
         let longest = runs().filter(move |r| r.work.steps == longest);
         Panel::new("", labels).log_y().histories(gallery, longest, |record, t| {
-            let all = t.points("time", "displacement_l2").into_iter();
-            let moved = all.filter(|(t, _)| *t > 0.0);
+            let moved = t.points("time", "displacement_l2").into_iter().filter(|(t, _)| *t > 0.0);
             let steps = |t: f64| t / record.discretisation.dt / 1e5;
             moved.map(|(t, u)| (steps(t), u)).collect()
         })

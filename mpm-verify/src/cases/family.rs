@@ -48,10 +48,7 @@ pub(super) fn main_pairs() -> Vec<Scheme> {
 
 /// The main pairs with APIC and XPIC(2).
 pub(super) fn other_transfers() -> Vec<Scheme> {
-    let with = |transfer| {
-        let pairs = main_pairs().into_iter();
-        pairs.map(move |s| Scheme::explicit(s.basis(), s.remedy(), transfer))
-    };
+    let with = |transfer| main_pairs().into_iter().map(move |s| Scheme::explicit(s.basis(), s.remedy(), transfer));
     let transfers = [TransferName::Apic, TransferName::Xpic2];
     transfers.into_iter().flat_map(with).collect()
 }

@@ -124,8 +124,7 @@ static FOREIGN: LazyLock<Vec<(&str, Foreign)>> = LazyLock::new(|| {
 
 /// The problems by which other codes are scored, and how.
 pub fn scored() -> impl Iterator<Item = (&'static Case, &'static Foreign)> {
-    let scored = FOREIGN.iter();
-    scored.filter_map(|(name, foreign)| Some((find(name).ok()?, foreign)))
+    FOREIGN.iter().filter_map(|(name, foreign)| Some((find(name).ok()?, foreign)))
 }
 
 /// The problem of a name by which other codes are scored.
@@ -140,8 +139,7 @@ pub fn find_scored(name: &str) -> Result<(&'static Case, &'static Foreign), Erro
 /// The place of a case among all; behind them if it is not known.
 #[must_use]
 pub fn place(name: &str) -> usize {
-    let known = ALL.iter().position(|c| c.name == name);
-    known.unwrap_or(ALL.len())
+    ALL.iter().position(|c| c.name == name).unwrap_or(ALL.len())
 }
 
 /// The problem of a name.

@@ -111,9 +111,7 @@ pub(super) fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
 
 /// Largest distance (m) between places and those before.
 pub(super) fn farthest(before: &[[f64; 2]], now: &[[f64; 2]]) -> f64 {
-    let pairs = before.iter().zip(now);
-    let distance = pairs.map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1]));
-    distance.fold(0.0, f64::max)
+    before.iter().zip(now).map(|(a, b)| (a[0] - b[0]).hypot(a[1] - b[1])).fold(0.0, f64::max)
 }
 
 /// Mean normal stress (Pa) as it enters the forces and its average Π, in seeding order.

@@ -130,8 +130,7 @@ pub(super) fn matrix_entries<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 /// Pressure (Pa) at the lowest node of a column.
 pub(super) fn base_pressure(run: &dyn Simulation<1>) -> f64 {
     let nodes = run.pressure_nodes();
-    let lowest = nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0]));
-    lowest.map_or(f64::NAN, |(_, p)| *p)
+    nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0])).map_or(f64::NAN, |(_, p)| *p)
 }
 
 /// Outflow of a run's water (m³, m² in plane strain, m in one dimension).

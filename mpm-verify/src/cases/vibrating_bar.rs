@@ -156,8 +156,7 @@ fn over_rules() -> ResultTable {
 /// (1 − square of the frequency over that without a remedy)/(kh)².
 fn softenings() -> ResultTable {
     let averaged = |runs: &[&Record]| {
-        let first = runs.first().copied();
-        first.filter(|r| r.remedy() != RemedyName::None).map(|r| (r.basis(), r.remedy()))
+        runs.first().copied().filter(|r| r.remedy() != RemedyName::None).map(|r| (r.basis(), r.remedy()))
     };
     let of_level = LEVELS.map(|(level, n)| {
         Column::row(format!("n = {n}"), move |runs, all| {
@@ -335,8 +334,7 @@ fn steps_slow(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Run<()>> = runs.filter(implicit).collect();
     let found = runs.iter().filter_map(|r| {
         let same = |other: &&Run<()>| other.scheme == r.scheme && other.level == r.level;
-        let family = runs.iter().filter(same);
-        let finest = family.min_by(|a, b| a.dt().total_cmp(&b.dt()))?;
+        let finest = runs.iter().filter(same).min_by(|a, b| a.dt().total_cmp(&b.dt()))?;
         let of_rule = |r: &Run<()>| slowed(r, frequency(&r.values));
         let expected = of_rule(r) / of_rule(finest);
         let (scheme, level, set) = (r.scheme, &r.level, r.set.join(" "));

@@ -126,8 +126,7 @@ impl Report {
                 return Err(Error::Input("several folders need --out for the report".to_owned()));
             }
         };
-        let night = self.night.zip(self.commit);
-        let night = night.map(|(date, commit)| Night::new(&date, &commit)).transpose()?;
+        let night = self.night.zip(self.commit).map(|(date, commit)| Night::new(&date, &commit)).transpose()?;
         let goldens = Goldens::open(&golden::place(self.golden))?;
         let _held = hold(&out)?;
         report_in(&self.folders, (&out, Files::All), &goldens, night.as_ref(), self.told)

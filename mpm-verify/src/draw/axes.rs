@@ -63,8 +63,7 @@ pub(super) fn tick_label(value: f64, step: f64, largest: f64) -> String {
 fn linear_ticks(lo: f64, hi: f64, most: usize) -> Ticks {
     let (step, values) = nice_ticks(lo, hi, most);
     let largest = largest(values.iter().map(|v| v.abs()));
-    let labelled = values.iter().map(|&v| (v, tick_label(v, step, largest)));
-    labelled.collect()
+    values.iter().map(|&v| (v, tick_label(v, step, largest))).collect()
 }
 
 /// Ticks of a log axis from 10^lo to 10^hi: decades; over about one decade or less, 1-2-5; where
@@ -139,8 +138,7 @@ impl Axis {
     /// The ticks along a line on the page.
     fn along(&self, [from, to]: [Point; 2]) -> impl Iterator<Item = (Point, &str)> {
         let part = |at: f64| self.pixels(at).round() / self.length;
-        let ticks = self.ticks.iter();
-        ticks.map(move |(at, label)| (between(from, to, part(*at)), label.as_str()))
+        self.ticks.iter().map(move |(at, label)| (between(from, to, part(*at)), label.as_str()))
     }
 
     /// Draws the ticks that have labels along a line on the page, and the labels to a side.
@@ -169,8 +167,7 @@ pub(super) fn widen((lo, hi): (f64, f64), fraction: f64) -> (f64, f64) {
 
 /// Smallest range that holds the finite values.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    let finite = values.filter(|v| v.is_finite());
-    finite.map(|v| (v, v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    values.filter(|v| v.is_finite()).map(|v| (v, v)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
 /// The axes of a box, with their wrapped labels.

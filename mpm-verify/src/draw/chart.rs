@@ -202,10 +202,8 @@ impl Chart {
 pub fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize) -> Result<(), PlotError> {
     for (column, upright) in (0..columns).flat_map(|k| [(k, false), (k, true)]) {
         let length = if upright { LEAST.1 } else { LEAST.0 };
-        let shown = charts.iter().skip(column).step_by(columns);
-        let ranges = shown.filter(|c| c.shows_something());
-        let ranges = ranges.map(|c| c.range(path, upright, length));
-        let ranges = ranges.collect::<Result<Vec<_>, _>>()?;
+        let ranges = charts.iter().skip(column).step_by(columns).filter(|c| c.shows_something());
+        let ranges = ranges.map(|c| c.range(path, upright, length)).collect::<Result<Vec<_>, _>>()?;
         let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
             continue;
         };

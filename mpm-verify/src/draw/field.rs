@@ -85,8 +85,7 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
     let extents = |panel: &FieldPanel| {
         let half = panel.size / 2.0;
         let corners = |p: &Point| [(p.0 - half, p.1 - half), (p.0 + half, p.1 + half)];
-        let squares = panel.points.iter().flat_map(corners);
-        squares.chain(panel.outline.iter().copied()).collect::<Vec<_>>()
+        panel.points.iter().flat_map(corners).chain(panel.outline.iter().copied()).collect::<Vec<_>>()
     };
     let all: Vec<Point> = panels.iter().flat_map(extents).filter(finite).collect();
     let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);

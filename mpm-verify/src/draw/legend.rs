@@ -97,8 +97,7 @@ pub(super) struct Legend<'a> {
 impl<'a> Legend<'a> {
     /// At most `room` pixels wide, if one column allows it.
     pub(super) fn new(entries: &[Entry<'a>], room: f64) -> Self {
-        let named = entries.iter().filter(|e| !e.name.is_empty());
-        let entries: Vec<_> = named.copied().collect();
+        let entries: Vec<_> = entries.iter().filter(|e| !e.name.is_empty()).copied().collect();
         let widest = largest(entries.iter().map(|e| SMALL.width(e.name)));
         let column = SAMPLE + 14.0 + widest + COLUMN_GAP;
         let columns = (((room + COLUMN_GAP) / column) as usize).max(1);

@@ -96,8 +96,7 @@ impl<'a> Plan<'a> {
 pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), PlotError> {
     let columns = columns.min(charts.len()).max(1);
     let size = [(1180.0, 760.0), (760.0, 560.0), LEAST][columns.min(3) - 1];
-    let plans = charts.iter().map(|c| Plan::new(path, c, size));
-    let plans = plans.collect::<Result<Vec<_>, _>>()?;
+    let plans = charts.iter().map(|c| Plan::new(path, c, size)).collect::<Result<Vec<_>, _>>()?;
     if plans.is_empty() {
         return Err(PlotError::no_data(path, "a figure without charts"));
     }
@@ -108,8 +107,7 @@ pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), 
     let common = Entry::common(plans.iter().map(|p| &p.entries[..]));
     let Some(common) = common else {
         let natural = left + size.0 + right;
-        let legends = plans.iter().map(|p| Legend::new(&p.entries, natural));
-        let legends: Vec<Legend> = legends.collect();
+        let legends: Vec<Legend> = plans.iter().map(|p| Legend::new(&p.entries, natural)).collect();
         let wider = largest(legends.iter().map(|l| l.width - natural));
         let under = below + BELOW + largest(legends.iter().map(|l| l.height));
         let sheet = sheet([left, right + wider, under]);

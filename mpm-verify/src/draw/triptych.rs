@@ -13,8 +13,7 @@ const FADED: f64 = 0.25;
 #[must_use]
 pub(crate) fn different_pixels(old: &RgbImage, new: &RgbImage) -> usize {
     let (width, height) = joint_size(old, new);
-    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
-    places.filter(|&(x, y)| differ(old, new, x, y)).count()
+    (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| differ(old, new, x, y)).count()
 }
 
 fn joint_size(old: &RgbImage, new: &RgbImage) -> (u32, u32) {

@@ -96,8 +96,7 @@ impl Goldens {
             Err(why) => return Ok(vec![mismatch("run", why)]),
         };
         let now = Now::read(record, folder)?;
-        let columns = golden.columns.iter();
-        let mut verdicts: Vec<Verdict> = columns.map(|c| now.judge(c, blessing)).collect();
+        let mut verdicts: Vec<Verdict> = golden.columns.iter().map(|c| now.judge(c, blessing)).collect();
         verdicts.extend(self.judge_picture(&now, blessing));
         if let Some(view) = case.field
             && runs(case).first() == Some(&record.folder())
@@ -111,8 +110,7 @@ impl Goldens {
     /// Verdict on the picture of a case, for the first run it shows: whether the picture drawn from the blessed
     /// columns, and from this run's columns without drift, is the kept one.
     fn judge_picture(&self, now: &Now<'_>, blessing: &str) -> Option<Verdict> {
-        let golden = self.cases.get(&*now.record.case)?.as_ref().ok()?;
-        let mut shown = golden.shown();
+        let mut shown = self.cases.get(&*now.record.case)?.as_ref().ok()?.shown();
         let first = shown.first_mut()?;
         if first.name != now.record.folder() {
             return None;
@@ -128,8 +126,7 @@ impl Goldens {
     /// # Errors
     /// The run has no golden or no series, or a picture can't be drawn.
     pub fn pictures(&self, record: &Record, folder: &Path) -> Result<[RgbImage; 2], Error> {
-        let found = self.find(record);
-        let (golden, _) = found.map_err(|why| Error::file(&self.root, why))?;
+        let (golden, _) = self.find(record).map_err(|why| Error::file(&self.root, why))?;
         let now = Now::read(record, folder)?;
         let drawn = [golden.clone(), now.snapped(golden)];
         let [old, new] = drawn.map(|run| curves(&[run], now.series.abscissa()));

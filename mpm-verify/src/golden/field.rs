@@ -34,8 +34,7 @@ fn particles(view: &FieldView, folder: &Path) -> Result<Vec<[f64; 4]>, Error> {
     if values.len() != table.rows() {
         return Err(Error::file(&path, format!("no column {}", view.value)));
     }
-    let all = (0..values.len()).map(|k| [k as f64, xs[k], ys[k], values[k]]);
-    Ok(all.collect())
+    Ok((0..values.len()).map(|k| [k as f64, xs[k], ys[k], values[k]]).collect())
 }
 
 fn read(path: &Path) -> Result<Vec<[f64; 4]>, Error> {
@@ -44,8 +43,7 @@ fn read(path: &Path) -> Result<Vec<[f64; 4]>, Error> {
     if table.rows() == 0 || columns.iter().any(|c| c.len() != table.rows()) {
         return Err(Error::file(path, format!("not columns {COLUMNS:?}")));
     }
-    let rows = (0..table.rows()).map(|k| columns.map(|c| c[k]));
-    Ok(rows.collect())
+    Ok((0..table.rows()).map(|k| columns.map(|c| c[k])).collect())
 }
 
 /// Keeps the field of a run, whose outputs lie in `folder`, and its picture.
@@ -87,8 +85,7 @@ pub(super) fn judge(
     let colour = (view.range.1 - view.range.0) / COLOURS;
     let mut moved = 0;
     for row in &mut rows {
-        let found = now.get(row[0] as usize).copied();
-        let found = found.unwrap_or([row[0], f64::NAN, f64::NAN, f64::NAN]);
+        let found = now.get(row[0] as usize).copied().unwrap_or([row[0], f64::NAN, f64::NAN, f64::NAN]);
         let near = |k: usize, step: f64| (found[k] - row[k]).abs() <= step / 2.0;
         if !(near(1, pixel) && near(2, pixel) && near(3, colour)) {
             *row = found;

@@ -64,8 +64,7 @@ impl Column {
     /// The largest of its numbers.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        let sizes = self.points.iter().map(|p| p.value.abs());
-        sizes.fold(0.0, f64::max)
+        self.points.iter().map(|p| p.value.abs()).fold(0.0, f64::max)
     }
 
     /// Whether it counts work.
@@ -172,8 +171,7 @@ impl Golden {
     }
 
     fn columns(&self) -> impl Iterator<Item = (&str, &Column)> {
-        let runs = self.runs.iter();
-        runs.flat_map(|run| run.columns.iter().map(move |c| (&*run.name, c)))
+        self.runs.iter().flat_map(|run| run.columns.iter().map(move |c| (&*run.name, c)))
     }
 
     /// The goldens of a run.
@@ -191,8 +189,7 @@ impl Golden {
         let count = |run: &&Run| all().filter(|r| setting(r) == setting(run)).count();
         // The first among equally frequent settings.
         let most = all().rev().max_by_key(count).and_then(setting);
-        let own = all().filter(|run| setting(run) == most);
-        own.take(SHOWN).cloned().collect()
+        all().filter(|run| setting(run) == most).take(SHOWN).cloned().collect()
     }
 
     /// Replaces runs of the same name and keeps the others that are among `planned`, in its order.

@@ -112,8 +112,7 @@ fn count(root: &Path, case: &str, count: &str) -> Result<u64, Error> {
     let of_run = |run: String| {
         let found = golden.run(&run);
         let found = found.ok_or_else(|| Error::file(&path, format!("no golden of {run}")))?;
-        let column = found.columns.iter().find(|c| c.quantity == count);
-        Ok(column.map_or(0, |c| c.points[0].value as u64))
+        Ok(found.columns.iter().find(|c| c.quantity == count).map_or(0, |c| c.points[0].value as u64))
     };
     runs(cases::find(case)?).into_iter().map(of_run).sum()
 }

@@ -22,13 +22,11 @@ const END_OF_PNG: &[u8] = b"IEND\xaeB`\x82";
 
 /// Draws the watched columns of runs over the first column of their series, a chart each, with a curve a run.
 pub(super) fn curves(runs: &[Run], abscissa: &str) -> Result<RgbImage, Error> {
-    let columns = runs.iter().flat_map(|run| &run.columns);
-    let watched = columns.filter_map(|c| c.quantity.strip_prefix(SERIES));
+    let watched = runs.iter().flat_map(|run| &run.columns).filter_map(|c| c.quantity.strip_prefix(SERIES));
     let charts: Result<Vec<Chart>, Error> = distinct(watched)
         .into_iter()
         .map(|header| {
-            let curves = runs.iter().map(|run| curve(run, header));
-            let curves = curves.collect::<Result<Vec<Series>, Error>>()?;
+            let curves = runs.iter().map(|run| curve(run, header)).collect::<Result<Vec<Series>, Error>>()?;
             Ok(Chart::new("", [abscissa, header], curves))
         })
         .collect();
@@ -42,8 +40,7 @@ fn curve(run: &Run, header: &str) -> Result<Series, Error> {
     let scheme = run.name.split('/').next().unwrap_or_default();
     let scheme = Scheme::parse(scheme).map_err(|e| Error::Input(e.to_string()))?;
     let own = |c: &&Column| c.quantity.strip_prefix(SERIES) == Some(header);
-    let points = run.columns.iter().filter(own).flat_map(|c| &c.points);
-    let points = points.filter_map(|p| Some((p.time?, p.value)));
+    let points = run.columns.iter().filter(own).flat_map(|c| &c.points).filter_map(|p| Some((p.time?, p.value)));
     Ok(series(scheme, points.collect()))
 }
 

@@ -16,8 +16,7 @@ pub(super) fn advice() -> Option<Table> {
 /// The first table of the section. Code keeps its marks, numbers and links leave their text.
 fn table(readme: &str) -> Option<Table> {
     let (_, section) = readme.split_once(SECTION)?;
-    let section = section.split("\n## ").next()?;
-    let lines = section.lines().skip_while(|line| !line.starts_with('|'));
+    let lines = section.split("\n## ").next()?.lines().skip_while(|line| !line.starts_with('|'));
     let lines = lines.take_while(|line| line.starts_with('|'));
     let mut rows = lines.map(|line| {
         let cells = line.trim_matches('|').split('|').enumerate();

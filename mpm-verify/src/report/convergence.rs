@@ -115,8 +115,7 @@ const COSTS: [Cost; 2] = [
 fn errors<'a>(curves: impl Iterator<Item = &'a Convergence>, label: &'static str, x: fn(&Point) -> f64) -> Errors<'a> {
     let entry = |c: &'a Convergence| {
         let (scheme, metric) = (c.scheme, &*c.metric);
-        let points = c.points.iter();
-        points.map(move |p| Entry { scheme, metric, x: x(p), value: p.value })
+        c.points.iter().map(move |p| Entry { scheme, metric, x: x(p), value: p.value })
     };
     Errors { entries: curves.flat_map(entry).collect(), label, is_logarithmic: true }
 }

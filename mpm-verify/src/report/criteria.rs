@@ -145,8 +145,7 @@ fn spaces() -> ResultTable {
 
 /// All of them.
 pub(super) fn all() -> Vec<ResultTable> {
-    let remedies = BASES.into_iter().map(remedies);
-    remedies.chain([transfers(), spaces()]).collect()
+    BASES.into_iter().map(remedies).chain([transfers(), spaces()]).collect()
 }
 
 #[cfg(test)]

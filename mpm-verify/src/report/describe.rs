@@ -7,6 +7,7 @@ use super::prelude::*;
 use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
 use crate::case::Tier;
 use crate::error::ExitCode;
+use crate::spec::RunSpec;
 use crate::study::judge::exit_code;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -21,11 +22,8 @@ const PAIRS_PER_SECOND: f64 = 8e8;
 #[must_use]
 pub fn list_text(cases: &[Case], tier: Option<Tier>, pairs: impl Fn(&str) -> Option<u64>) -> String {
     if let Some(tier) = tier {
-        let runs = cases.iter().flat_map(|case| {
-            let runs = case.runs(tier).into_iter();
-            runs.map(move |spec| format!("{} {}\n", case.name, spec.folder()))
-        });
-        return runs.collect();
+        let line = |case: &Case, spec: RunSpec| format!("{} {}\n", case.name, spec.folder());
+        return cases.iter().flat_map(|case| case.runs(tier).into_iter().map(move |spec| line(case, spec))).collect();
     }
     let [quick, pr, nightly, long] = Tier::NAMES;
     let mut t = format!("{:20} {:38} {quick:>5} {pr:>4} {nightly:>7} {long:>5}  CPU of pr\n", "case", "what it is",);
@@ -82,17 +80,13 @@ pub fn explain(case: &Case) -> String {
     });
     let title = "Schemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)";
     list(title, lines.collect());
-    let levels = case.levels.iter();
-    let levels = levels.map(|l| format!("{}  cells of {} m", l.name, l.h).into());
+    let levels = case.levels.iter().map(|l| format!("{}  cells of {} m", l.name, l.h).into());
     list("Levels (--level L)", levels.collect());
-    let metrics = case.metrics.iter();
-    let metrics = metrics.map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
+    let metrics = case.metrics.iter().map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
     list("Metrics", metrics.collect());
-    let wanted = case.wanted.iter();
-    let wanted = wanted.map(|w| format!("{}  {}; judged by {}", w.name, w.statement, w.names()).into());
+    let wanted = case.wanted.iter().map(|w| format!("{}  {}; judged by {}", w.name, w.statement, w.names()).into());
     list("Wanted (a run is right only if each is right)", wanted.collect());
-    let checks = case.checks.iter();
-    let checks = checks.map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
+    let checks = case.checks.iter().map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
     list("Checks", checks.collect());
     let references = case.references.iter().map(|reference| reference.as_str().into());
     list("References", references.collect());
@@ -162,8 +156,7 @@ pub(super) fn measured(case: &Case, r: &Record) -> String {
 /// The verdicts on a run; of bookkeeping its failures, and what holds on one line.
 pub(super) fn judged(r: &Record) -> String {
     let mut t = String::new();
-    let told = r.verdicts.iter();
-    let told = told.filter(|v| v.kind != Kind::Bookkeeping || v.failed());
+    let told = r.verdicts.iter().filter(|v| v.kind != Kind::Bookkeeping || v.failed());
     t.extend(told.map(verdict_line));
     let counted = r.verdicts.iter().filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
     let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
@@ -176,8 +169,7 @@ pub(super) fn judged(r: &Record) -> String {
 /// A run: its metrics in the order of its case, its verdicts, and the verdict on it in one line at the end.
 #[must_use]
 pub fn record(case: &Case, r: &Record) -> String {
-    let set = r.set.iter().map(|assignment| format!("  {assignment}"));
-    let set: String = set.collect();
+    let set: String = r.set.iter().map(|assignment| format!("  {assignment}")).collect();
     let mut t = format!("{}  {}  {}{set}\n", r.case, r.scheme(), r.level);
     let _ = writeln!(
         t,
@@ -289,8 +281,7 @@ pub fn verification_line(summary: &Summary) -> String {
 /// Findings of a verification, as JSON: its counts, and each run that did not end well.
 #[must_use]
 pub fn verification_json(summary: &Summary) -> Value {
-    let records = summary.cases.iter().flat_map(|s| &s.records);
-    let failed = records.filter(|r| exit_code(r) as u8 != 0);
+    let failed = summary.cases.iter().flat_map(|s| &s.records).filter(|r| exit_code(r) as u8 != 0);
     let failed = failed.map(|r| json!({"case": r.case, "run": r.folder(), "verdict": sentence(r)}));
     json!({
         "tier": summary.tier,

@@ -102,8 +102,7 @@ impl Difference {
     pub fn text(&self) -> String {
         let [old, new] = &self.names;
         let mut t = format!("# {old} against {new}\n\n{}\n", self.counts());
-        let verdicts = self.verdicts.iter();
-        let verdicts = verdicts.map(|c| [&*c.what, c.old, c.new].map(str::to_owned).into());
+        let verdicts = self.verdicts.iter().map(|c| [&*c.what, c.old, c.new].map(str::to_owned).into());
         let numbers = self.numbers.iter().map(|c| {
             let difference = c.old.zip(c.new).map(|(a, b)| b - a);
             let numbers = [c.old, c.new, difference].map(number);

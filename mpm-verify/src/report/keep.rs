@@ -49,8 +49,7 @@ fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>,
     cited.extend(
         former.iter().filter(|row| row.case == study.case).flat_map(|row| row.metrics.keys().map(String::as_str)),
     );
-    let records = study.records.iter();
-    Ok(records.map(|r| Row::of(r, night, &cited)).collect())
+    Ok(study.records.iter().map(|r| Row::of(r, night, &cited)).collect())
 }
 
 fn require_small(path: &Path, bytes: usize, most: usize) -> Result<(), Error> {

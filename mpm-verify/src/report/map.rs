@@ -89,8 +89,7 @@ pub(super) fn panels<'a>(records: impl IntoIterator<Item = &'a Record>, speed: &
         let own = records.iter().filter(|r| panel_of(r.scheme()) == name);
         Panel::of(name, own.copied().collect(), speed)
     };
-    let panels = PANELS.into_iter().map(panel);
-    panels.filter(|panel| !panel.lines.is_empty()).collect()
+    PANELS.into_iter().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
 }
 
 /// The panel of its kind of solver.
@@ -105,8 +104,7 @@ fn panel_of(scheme: Scheme) -> &'static str {
 impl<'a> Panel<'a> {
     fn of(name: &'static str, told: Vec<&'a Record>, speed: &Speed) -> Self {
         let has = |case: &&str| told.iter().any(|r| r.case == **case);
-        let cases = cases::all().iter().map(|case| case.name).filter(has);
-        let cases: Vec<&str> = cases.collect();
+        let cases: Vec<&str> = cases::all().iter().map(|case| case.name).filter(has).collect();
         let mut errors = distinct(told.iter().filter_map(|r| kind_of_error(r)));
         errors.sort_unstable();
         let mut schemes = distinct(told.iter().map(|r| r.scheme()));
@@ -125,8 +123,7 @@ impl<'a> Panel<'a> {
             Line { scheme: scheme.title(), numbers: numbers.collect(), cells: cases.iter().map(cell).collect() }
         };
         let mut lines: Vec<Line> = schemes.iter().map(line).collect();
-        let titles = STEPS.map(|(_, title)| title).into_iter().chain([COST]);
-        let mut numbers: Vec<&str> = titles.collect();
+        let mut numbers: Vec<&str> = STEPS.map(|(_, title)| title).into_iter().chain([COST]).collect();
         for k in (0..numbers.len()).rev() {
             if lines.iter().all(|line| line.numbers[k].is_empty()) {
                 numbers.remove(k);

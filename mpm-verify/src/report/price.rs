@@ -82,8 +82,7 @@ impl Prices {
             let mut errors = case.quantities.iter().filter(move |q| q.is_error && is_of_stress(q) == of_stress);
             if of_stress { errors.next_back() } else { errors.next() }
         };
-        let priced = [priced(false), priced(true)].into_iter().flatten();
-        priced.filter_map(of_metric).collect()
+        [priced(false), priced(true)].into_iter().flatten().filter_map(of_metric).collect()
     }
 
     /// Prices from the curves of an error, and the runs behind them.
@@ -97,8 +96,7 @@ impl Prices {
             return None;
         }
         let least = |own: &[&Convergence]| {
-            let errors = own.iter().flat_map(|c| &c.points).map(|p| p.value.abs());
-            errors.fold(f64::INFINITY, f64::min)
+            own.iter().flat_map(|c| &c.points).map(|p| p.value.abs()).fold(f64::INFINITY, f64::min)
         };
         let mut reached: Vec<f64> = schemes.values().map(|own| least(own)).collect();
         reached.sort_by(f64::total_cmp);
@@ -196,8 +194,7 @@ fn rounded(value: f64) -> f64 {
 /// The cost of `target` on the way from coarse to fine, from where no finer level misses it: a coarse one that meets it by
 /// luck doesn't count.
 fn cost(points: &[Point], target: f64) -> Option<Cost> {
-    let missed = points.iter().rposition(|p| p.value.abs() > target);
-    let reached = missed.map_or(0, |k| k + 1);
+    let reached = points.iter().rposition(|p| p.value.abs() > target).map_or(0, |k| k + 1);
     if reached == points.len() {
         return None;
     }

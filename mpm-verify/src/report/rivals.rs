@@ -104,14 +104,10 @@ impl Problem {
                 Some(_) => implicit,
                 None => !implicit && r.transfer() == TransferName::Flip,
             };
-            let own = records.iter().copied().filter(|r| self.is_of(r));
-            own.filter(fits).collect()
+            records.iter().copied().filter(|r| self.is_of(r)).filter(fits).collect()
         };
         let kinds = [false, true].map(of_kind);
-        let least = |runs: &Vec<&Record>| {
-            let errors = runs.iter().map(|r| self.error(r));
-            errors.fold(f64::INFINITY, f64::min)
-        };
+        let least = |runs: &Vec<&Record>| runs.iter().map(|r| self.error(r)).fold(f64::INFINITY, f64::min);
         let target = EQUAL * kinds.iter().map(least).fold(0.0, f64::max);
         let [explicit, implicit] = kinds.map(|runs| {
             let good = runs.into_iter().filter(|r| self.error(r) <= target);

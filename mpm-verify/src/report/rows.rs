@@ -56,10 +56,7 @@ pub(super) struct Row {
 impl Row {
     pub(super) fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
         let judged = |v: &&Verdict| v.judges();
-        let count = |outcome| {
-            let verdicts = record.verdicts.iter().filter(judged);
-            verdicts.filter(|v| v.outcome == outcome).count()
-        };
+        let count = |outcome| record.verdicts.iter().filter(judged).filter(|v| v.outcome == outcome).count();
         let mut names = cited.clone();
         names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
         let metrics = names
@@ -114,8 +111,7 @@ impl Row {
         });
         let broke = self.status.strip_prefix(BROKE);
         // Rows of former programs have no kind.
-        let broke = broke.map(|of| of.split_once(AFTER).unwrap_or((of, "")));
-        let error = broke.map(|(time, kind)| Failure {
+        let error = broke.map(|of| of.split_once(AFTER).unwrap_or((of, ""))).map(|(time, kind)| Failure {
             kind: kind.to_owned(),
             time: time.trim_end_matches(" s").parse().unwrap_or(f64::NAN),
             step: self.steps,
@@ -166,8 +162,7 @@ impl Row {
             outcome: *outcome,
             source: String::new(),
         };
-        let some = counts.iter().filter(|(count, ..)| *count > 0);
-        some.map(verdict).collect()
+        counts.iter().filter(|(count, ..)| *count > 0).map(verdict).collect()
     }
 
     /// Key of the row.

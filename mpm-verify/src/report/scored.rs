@@ -72,10 +72,7 @@ impl Ours {
 /// The result and our runs, a row each: what is measured of the result, and what it took.
 fn table(scored: &Scored, ours: &Ours) -> Sheet {
     let seen = |m: &str| scored.record.metrics.contains_key(m);
-    let columns = || {
-        let columns = scored.case.headlines.iter();
-        columns.filter(|c| c.metric.is_some_and(|m| seen(m.name)))
-    };
+    let columns = || scored.case.headlines.iter().filter(|c| c.metric.is_some_and(|m| seen(m.name)));
     let mut head = vec!["scheme".to_owned()];
     head.extend(columns().map(|c| c.title.clone()));
     head.extend(["CPU (s)", "own verdict"].map(str::to_owned));
@@ -123,8 +120,7 @@ fn notes(scored: &Scored) -> Vec<String> {
 /// Names of runs that are judged together, and the case's quantities by level.
 fn ladders(scores: &Scores) -> impl Iterator<Item = (String, &CaseStudy, Sheet)> {
     let name = |c: &Convergence| [std::slice::from_ref(&c.metric), &c.set].concat().join(" ");
-    let several = scores.together.iter().filter(|(_, study)| study.records.len() > 1);
-    several.map(move |(runs, study)| {
+    scores.together.iter().filter(|(_, study)| study.records.len() > 1).map(move |(runs, study)| {
         let levels = by_level(scores.case, &study.convergence.iter().collect::<Vec<_>>(), ("quantity", name));
         (format!("{runs} together"), study, levels)
     })
@@ -186,8 +182,7 @@ pub fn json(scores: &Scores, ours: &[Ours], gate: &Gate) -> Value {
 
 fn run_json(scored: &Scored, ours: &Ours) -> Value {
     let record = &scored.record;
-    let others = ours.runs.iter();
-    let others = others.map(|r| {
+    let others = ours.runs.iter().map(|r| {
         json!({"scheme": r.scheme, "metrics": r.metrics, "cpu_s": r.time.cpu_s,
             "outcome": outcome_of_run(r)})
     });

@@ -38,8 +38,7 @@ fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Opti
     // Where ground has yielded the mechanism shows.
     let flows = bulk(table.column("plastic_strain")).is_some();
     let value = view.map_or(if flows { "plastic_strain" } else { "mean_stress" }, |view| view.value);
-    let header = table.iter().map(|(header, _)| header);
-    let label = header.filter(|h| h.split(" (").next() == Some(value)).last();
+    let label = table.iter().map(|(header, _)| header).filter(|h| h.split(" (").next() == Some(value)).last();
     let (Some(label), Some(range)) = (label, bulk(table.column(value))) else {
         return Ok(None);
     };
@@ -87,8 +86,7 @@ fn history(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Op
     let table = Table::read(&path)?;
     let chart = |name: &&str| {
         let (at, values) = (table.iter().next(), table.column(name).iter());
-        let at = at.map_or(&[][..], |(_, at)| at).iter();
-        let points = at.copied().zip(values.copied()).collect();
+        let points = at.map_or(&[][..], |(_, at)| at).iter().copied().zip(values.copied()).collect();
         let header = table.iter().map(|(header, _)| header);
         let label = header.filter(|h| h.split(" (").next() == Some(name)).last();
         Chart::new("", [table.abscissa(), label.unwrap_or(name)], vec![Series::line("", points, 0)])

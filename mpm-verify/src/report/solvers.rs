@@ -29,8 +29,7 @@ fn panel<'a>(records: &'a [Record], problem: &Problem) -> Option<Panel<'a>> {
         let of_case = r.case == problem.case && (r.basis(), r.remedy()) == problem.schemes && r.time.cpu_s > 0.0;
         if of_case { curve(r) } else { None }
     };
-    let runs = records.iter().filter_map(|r| Some((own(r)?, r)));
-    let mut runs: Vec<(String, &Record)> = runs.collect();
+    let mut runs: Vec<(String, &Record)> = records.iter().filter_map(|r| Some((own(r)?, r))).collect();
     runs.sort_by(|a, b| a.0.cmp(&b.0));
     let (name, error) = problem.motion;
     let point = |r: &Record| (r.time.cpu_s, r.value(error).abs());

@@ -57,10 +57,8 @@ impl Speed {
     /// in how many of those in which it was run it gets there; empty if it was run in fewer than [`FEW`].
     pub(super) fn median(&self, scheme: Scheme) -> String {
         let motions = self.0.iter().map(|(_, p)| p).filter(|p| !p.of_stress);
-        let rows = motions.filter_map(|p| Some((p, p.of_scheme(scheme)?)));
-        let rows: Vec<(&Prices, &Price)> = rows.collect();
-        let ratios = rows.iter().filter_map(|(p, row)| p.over_cheapest(row));
-        let mut ratios: Vec<f64> = ratios.collect();
+        let rows: Vec<(&Prices, &Price)> = motions.filter_map(|p| Some((p, p.of_scheme(scheme)?))).collect();
+        let mut ratios: Vec<f64> = rows.iter().filter_map(|(p, row)| p.over_cheapest(row)).collect();
         ratios.sort_by(f64::total_cmp);
         match (rows.len(), ratios.len()) {
             (all, _) if all < FEW => String::new(),
@@ -118,8 +116,7 @@ impl Speed {
         let of_all = self.0.iter().filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis()));
         let of_all: Vec<BasisName> = of_all.collect();
         let count = |basis: &BasisName| of_all.iter().filter(|b| *b == basis).count();
-        let best = distinct(of_all.iter().copied()).into_iter().max_by_key(count);
-        best.map_or_else(
+        distinct(of_all.iter().copied()).into_iter().max_by_key(count).map_or_else(
             || "–".to_owned(),
             |basis| format!("{basis} (the cheapest on {} of {})", count(&basis), of_all.len()),
         )

@@ -41,8 +41,7 @@ pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String,
 }
 
 fn lines(text: &str, most: usize) -> Text {
-    let lines = text.lines().take(most).map(Text::from);
-    lines.reduce(Text::then_below).unwrap_or_default()
+    text.lines().take(most).map(Text::from).reduce(Text::then_below).unwrap_or_default()
 }
 
 fn runs(summary: &Summary) -> impl Iterator<Item = &Record> {

@@ -64,8 +64,7 @@ impl Page {
         files.retain(|file| file.extension().is_some_and(|e| e == "md"));
         files.sort();
         let mut shown = BTreeSet::new();
-        let pages = files.into_iter();
-        let pages = pages.map(|file| Self::read(file, &tables, &values, &mut shown));
+        let pages = files.into_iter().map(|file| Self::read(file, &tables, &values, &mut shown));
         let mut pages = pages.collect::<Result<Vec<Self>, Error>>()?;
         pages.push(Self::gist(root.join(GIST), &rows)?);
         match tables.keys().find(|name| !shown.contains(*name)) {
@@ -167,8 +166,7 @@ impl Page {
 
 /// Every table by its name, in Markdown, with the oldest of the runs that it tells of.
 fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
-    let kept = rows.iter().filter_map(|row| Some((row.record()?, row.night)));
-    let kept: Vec<(Record, Date)> = kept.collect();
+    let kept: Vec<(Record, Date)> = rows.iter().filter_map(|row| Some((row.record()?, row.night))).collect();
     let records = || kept.iter().map(|(r, _)| r);
     let oldest = |told: &[&Record]| {
         let is_told = |r: &Record| told.iter().any(|t| std::ptr::eq(*t, r));
@@ -223,8 +221,7 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         });
         (format!("map-{name}"), text.unwrap_or_default())
     });
-    let of_cases = cases::all().iter();
-    let of_cases = of_cases.flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
+    let of_cases = cases::all().iter().flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = criteria::all();
     let over_cases = over_cases.iter().map(|t| table(t, None)).chain(map);
     let costs = [("outcomes", outcomes), (speed::NAME, prices), (rivals::NAME, rivals)];

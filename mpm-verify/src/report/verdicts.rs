@@ -40,10 +40,8 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
 
 /// Differences from the goldens, run by run.
 pub(super) fn drift(summary: &Summary) -> Sheet {
-    let records = summary.cases.iter().flat_map(|s| &s.records);
-    let rows = records.flat_map(|record| {
-        let drifting = record.verdicts.iter().filter(|v| v.drifts());
-        drifting.map(move |v| {
+    let rows = summary.cases.iter().flat_map(|s| &s.records).flat_map(|record| {
+        record.verdicts.iter().filter(|v| v.drifts()).map(move |v| {
             let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
             let what = match difference {
                 Some(_) => v.metric.clone(),

@@ -33,8 +33,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     }
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
-    let columns = start.into_iter();
-    let columns = columns.map(|c| (format!("{} ({})", c.name, c.unit), c.values));
+    let columns = start.into_iter().map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns.collect()).write(&folder.join(START))?;
     let discretisation = (foreign.discretisation)(spec, &parameters)?;
     write_json(&folder.join("parameters.json"), &described(case, spec, &parameters, discretisation.dim))?;

@@ -55,8 +55,7 @@ impl Gate {
     #[must_use]
     pub fn refusal(&self, scores: &Scores) -> Option<String> {
         let of = |on: Judged<'_>| {
-            let stopping = on.1.iter().filter(|v| self.stops(on.1, v));
-            let told = stopping.map(|v| match v.is_wanted() {
+            let told = on.1.iter().filter(|v| self.stops(on.1, v)).map(|v| match v.is_wanted() {
                 true => format!("{} ({})", v.check, v.source),
                 false => format!("{}, {} ({})", v.check, v.metric, v.source),
             });

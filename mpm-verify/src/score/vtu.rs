@@ -59,8 +59,7 @@ pub(super) fn table(bytes: &[u8]) -> Result<Table, String> {
 /// An attribute of an element, whose name some programs begin with a capital.
 fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
     let mut all = element.attributes().flatten();
-    let found = all.find(|a| a.key.as_ref().eq_ignore_ascii_case(name))?;
-    Some(found.value.into_owned())
+    Some(all.find(|a| a.key.as_ref().eq_ignore_ascii_case(name))?.value.into_owned())
 }
 
 /// Points and scalar point data of a grid. An array's numbers are its own text: elements inside it, such as VTK's
@@ -122,10 +121,7 @@ impl Array {
         let count = points * self.own.components;
         let short = || format!("not {count} numbers");
         let numbers: Vec<f64> = match &*self.format {
-            "ascii" => {
-                let words = self.text.split_ascii_whitespace().take(count + 1);
-                words.map(vtk::number).collect::<Result<_, _>>()?
-            }
+            "ascii" => self.text.split_ascii_whitespace().take(count + 1).map(vtk::number).collect::<Result<_, _>>()?,
             "binary" => self.unpack(layout, count, &mut Base64::new(self.text.as_bytes()))?,
             "appended" => {
                 let own = data.get(self.offset..).ok_or("an offset behind the data")?;
@@ -173,8 +169,7 @@ impl Array {
             if said != whole {
                 return Err(wrong(&format!("{said} bytes")));
             }
-            let taken = from.take(whole).read_to_end(&mut bytes);
-            taken.map_err(|e| e.to_string())?;
+            from.take(whole).read_to_end(&mut bytes).map_err(|e| e.to_string())?;
         }
         if bytes.len() as u64 != whole {
             return Err(wrong(&format!("{} bytes", bytes.len())));

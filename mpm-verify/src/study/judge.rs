@@ -43,8 +43,7 @@ fn breaks_beside_the_plan(case: &Case, record: &Record) -> Option<&'static str> 
         return None;
     }
     let holds = |name: &str, of: fn(f64) -> bool| {
-        let parameter = case.parameters.iter().find(|p| p.name == name);
-        parameter.is_some_and(|p| of(record.parameters.number(*p)))
+        case.parameters.iter().find(|p| p.name == name).is_some_and(|p| of(record.parameters.number(*p)))
     };
     match record.scheme() {
         Scheme::Explicit(_) if holds("cfl", |cfl| cfl > STABLE_CFL) => {

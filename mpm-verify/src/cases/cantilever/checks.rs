@@ -139,8 +139,7 @@ fn falls(records: &[Record]) -> Vec<Finding> {
         let what = format!("{} at {} over that at {}", metric.name, pair[1].level, pair[0].level);
         Finding::at_most(what, fine / coarse, 1.0, "convergence under refinement")
     };
-    let pairs = own.windows(2);
-    pairs.flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair))).collect()
+    own.windows(2).flat_map(|pair| [CORNER_ERROR, STRESS_ERROR].map(|metric| fall(metric, pair))).collect()
 }
 
 fn steps(records: &[Record]) -> Vec<Finding> {

@@ -205,8 +205,7 @@ fn tables() -> Vec<ResultTable> {
         if changed.is_empty() { "–".to_owned() } else { changed.join(", ") }
     }
     fn word(r: &Record, name: &str, default: &str) -> String {
-        let own = r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
-        own.unwrap_or(default).to_owned()
+        r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('=')).unwrap_or(default).to_owned()
     }
     const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));
     const LAW: Label = ("law", |r| word(r, "law", "hencky"));

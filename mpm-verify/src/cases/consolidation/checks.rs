@@ -93,8 +93,7 @@ fn resolves(r: &Record) -> bool {
 fn ladders(records: &[Record]) -> BTreeMap<(String, Scheme), Vec<&Record>> {
     let own = |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
     let ladders = ladders_by(records.iter().filter(own), |r| (number(r, |c| c.load).to_string(), r.scheme()));
-    let finest = ladders.into_iter().filter_map(|(key, runs)| Some((key, finest(&runs)?.to_vec())));
-    finest.collect()
+    ladders.into_iter().filter_map(|(key, runs)| Some((key, finest(&runs)?.to_vec()))).collect()
 }
 
 fn orders(records: &[Record]) -> Vec<Finding> {

@@ -29,8 +29,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
         own_checks: &["order-space", "richardson"],
         gaps,
         curves: |parameters| {
-            let exact = Consolidation::read(parameters).map(|column| solution(column.load, None));
-            let exact = exact.unwrap_or_default();
+            let exact = Consolidation::read(parameters).map(|column| solution(column.load, None)).unwrap_or_default();
             let column = |of: fn(&At) -> f64| exact.iter().map(of).collect();
             let columns = vec![
                 (TIME.header(), column(|at| at.t)),

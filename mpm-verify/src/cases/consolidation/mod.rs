@@ -188,8 +188,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
             own && r.changes_none_but(&["load"]) && number(r, |c| c.load) == load
         };
         for (column, label, value) in quantities {
-            let exact = solution(load, None).into_iter();
-            let exact = exact.map(|at| (at.t, 100.0 * value(&at)));
+            let exact = solution(load, None).into_iter().map(|at| (at.t, 100.0 * value(&at)));
             let exact = Series {
                 name: "independent solution".to_owned(),
                 colour: 6,

@@ -63,8 +63,7 @@ fn probes(given: &Given) -> Result<Probes, Error> {
 fn gaps(given: &Given) -> Gaps {
     let work = given.column(&LOAD_WORK);
     let most = LOADING * work.last().copied().unwrap_or_default();
-    let begins = work.first().copied().into_iter();
-    let mut steps = begins.chain(work.windows(2).map(|pair| pair[1] - pair[0]));
+    let mut steps = work.first().copied().into_iter().chain(work.windows(2).map(|pair| pair[1] - pair[0]));
     let why = "the load does more than a quarter of its work before the first row or between two rows";
     let gap = (most > 0.0 && steps.any(|step| step > most)).then(|| (ENERGY_GAIN, Gap::Unknown(why.to_owned())));
     Ok(gap.into_iter().collect())

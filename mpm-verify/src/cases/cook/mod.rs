@@ -136,8 +136,7 @@ pub(super) fn case() -> Case {
 fn own_runs(records: &[Record]) -> Vec<&Record> {
     let same = |a: &Record, b: &Record| a.scheme() == b.scheme() && a.level == b.level;
     let has_default = |r: &Record| records.iter().any(|d| d.is_default() && same(d, r));
-    let own = records.iter().filter(|r| r.is_default() || (differs_in_step(r) && !has_default(r)));
-    own.collect()
+    records.iter().filter(|r| r.is_default() || (differs_in_step(r) && !has_default(r))).collect()
 }
 
 /// Whether a run that comes to rest differs from the case's own in its time step only.

@@ -222,8 +222,7 @@ fn of_flow() -> ResultTable {
 
 /// The value of a parameter as it was set, or its default.
 fn word(r: &Record, name: &str, default: &str) -> String {
-    let own = r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('='));
-    own.unwrap_or(default).to_owned()
+    r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('=')).unwrap_or(default).to_owned()
 }
 
 fn at_rest() -> ResultTable {

@@ -212,8 +212,7 @@ impl Dam {
         }
         let front = p.position.iter().map(|x| x[0]).fold(0.0, f64::max);
         let cell = self.setup.h;
-        let near_back = p.position.iter().filter(|x| x[0] < cell);
-        let level = near_back.map(|x| x[1]).fold(0.0, f64::max);
+        let level = p.position.iter().filter(|x| x[0] < cell).map(|x| x[1]).fold(0.0, f64::max);
         State {
             time: run.time(),
             front: front + 0.5 * self.spacing,

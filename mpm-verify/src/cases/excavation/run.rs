@@ -32,8 +32,7 @@ impl Setup<Excavation> {
         }
         let end = (self.peak - self.residual) / self.softening;
         let strain = run.field(Field::PlasticStrain);
-        let pairs = strain.iter().zip(&run.particles().volume);
-        pairs.filter(|(e, _)| **e >= end).map(|(_, v)| v).sum()
+        strain.iter().zip(&run.particles().volume).filter(|(e, _)| **e >= end).map(|(_, v)| v).sum()
     }
 
     /// Largest ‖J dev σ‖ of a particle over its strength, less one.
@@ -80,8 +79,7 @@ fn crest_drop(start: &[[f64; 2]], run: &dyn Simulation<2>) -> f64 {
     let now = p.seeded(|k| p.position[k][1]);
     let first = p.seeded(|k| p.reference[k][1]);
     let top = HEIGHT - 2.0 * p.half_size[1];
-    let columns = start.iter().zip(&now).zip(&first);
-    let drops = columns.filter(|(_, y)| **y > top).map(|((a, b), _)| a[1] - b);
+    let drops = start.iter().zip(&now).zip(&first).filter(|(_, y)| **y > top).map(|((a, b), _)| a[1] - b);
     drops.fold(0.0, f64::max)
 }
 
@@ -96,8 +94,7 @@ fn stresses(run: &dyn Simulation<2>) -> Vec<[f64; 4]> {
 
 /// Largest difference (Pa) of the stresses that both lists have.
 fn difference(before: &[[f64; 4]], after: &[[f64; 4]]) -> f64 {
-    let pairs = before.iter().flatten().zip(after.iter().flatten());
-    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    before.iter().flatten().zip(after.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 fn largest(values: &[f64]) -> f64 {

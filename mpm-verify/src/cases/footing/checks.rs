@@ -360,8 +360,7 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
         );
         Some(Finding::within(NC_B, run.metric(NC_B), held, 2.0 * run.h / WIDTH * held, why))
     };
-    let through_barrier = runs.iter().filter(|r| r.changes_only("contact"));
-    through_barrier.filter_map(found).collect()
+    runs.iter().filter(|r| r.changes_only("contact")).filter_map(found).collect()
 }
 
 /// The order of the error of the contact pressure by B, over runs of the case's own parameters up to any penetration.
@@ -385,6 +384,5 @@ fn orders(records: &[Record]) -> Vec<Finding> {
             )
         })
     };
-    let schemes = crate::distinct(runs.iter().map(|r| r.scheme));
-    schemes.into_iter().filter_map(order).collect()
+    crate::distinct(runs.iter().map(|r| r.scheme)).into_iter().filter_map(order).collect()
 }

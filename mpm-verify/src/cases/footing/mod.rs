@@ -242,8 +242,7 @@ fn changed(r: &Record) -> String {
         }
         .to_owned()
     };
-    let words = r.set.iter().map(word).filter(|word| !word.is_empty());
-    words.collect::<Vec<_>>().join(", ")
+    r.set.iter().map(word).filter(|word| !word.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
 /// N_c by its own width, which a barrier does not let know.

@@ -102,8 +102,7 @@ fn document() -> Result<&'static Document, String> {
 
 /// The curve of vanishing elements as (s/B, q/s_u), to be drawn.
 pub(super) fn limit_curve() -> Vec<(f64, f64)> {
-    let curve = document().ok().map(|d| &d.extrapolated.curve);
-    let points = curve.into_iter().flatten();
+    let points = document().ok().map(|d| &d.extrapolated.curve).into_iter().flatten();
     points.map(|p| (p.settlement, p.pressure)).collect()
 }
 

@@ -304,6 +304,5 @@ fn changed<'a>(records: &'a [Record], parameter: &str) -> Vec<(Slope<'a>, Slope<
         let same = |r: &&Record| r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others());
         Some((Run::of(run).ok()?, Run::of(ended().find(same)?).ok()?))
     };
-    let runs = ended().filter(|run| run.set.iter().any(|set| changes(&set)));
-    runs.filter_map(own).collect()
+    ended().filter(|run| run.set.iter().any(|set| changes(&set))).filter_map(own).collect()
 }

@@ -68,8 +68,7 @@ impl Shown {
     }
 
     fn values(&self, field: &Field) -> Vec<f64> {
-        let values = self.particles.column(field.column).iter();
-        values.map(|v| field.factor * v).collect()
+        self.particles.column(field.column).iter().map(|v| field.factor * v).collect()
     }
 
     /// Values in seeding order of the particles in the middle of the width.
@@ -137,8 +136,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         let compared = runs.levels(basis).first().copied();
         // The finest level of all, if other remedies have yet to run on it.
         let ours = |r: &&&Record| r.basis() == basis && r.remedy() == FbarConsistent;
-        let finest = runs.records.iter().find(ours).map(|r| &*r.level);
-        let finest = finest.filter(|level| Some(*level) != compared);
+        let finest = runs.records.iter().find(ours).map(|r| &*r.level).filter(|level| Some(*level) != compared);
         for field in &FIELDS {
             let name = format!("{}-{basis}", field.name);
             if let Some(level) = compared {

@@ -234,8 +234,7 @@ impl Series {
 
 /// Potential energy (J) of particles under gravity.
 pub(super) fn potential<const D: usize>(particles: &Particles<D>) -> f64 {
-    let heights = particles.mass.iter().zip(&particles.position);
-    heights.map(|(m, x)| m * GRAVITY * x[1]).sum()
+    particles.mass.iter().zip(&particles.position).map(|(m, x)| m * GRAVITY * x[1]).sum()
 }
 
 /// Largest range, over the width, of the distances `moved` (m) of the particles of one place, over the largest of these

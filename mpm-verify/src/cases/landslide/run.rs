@@ -247,8 +247,7 @@ fn plastic_strain<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<f64> {
 fn moved<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
     let p = run.particles();
     let distance = |k: usize| {
-        let pairs = p.position[k].iter().zip(&p.reference[k]);
-        let squares = pairs.map(|(x, reference)| (x - reference).powi(2));
+        let squares = p.position[k].iter().zip(&p.reference[k]).map(|(x, reference)| (x - reference).powi(2));
         squares.sum::<f64>().sqrt()
     };
     p.seeded(distance)

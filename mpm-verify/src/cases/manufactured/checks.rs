@@ -247,8 +247,7 @@ fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> 
         let of_metric = |claimed: &_| {
             let all = ladders(records).into_iter();
             let deciding = all.filter_map(|(scheme, runs)| Ladder::new(*claimed, scheme, &runs));
-            let found = deciding.filter_map(|l| found(&format!("order_{}", l.about), &l));
-            found.collect::<Vec<_>>()
+            deciding.filter_map(|l| found(&format!("order_{}", l.about), &l)).collect::<Vec<_>>()
         };
         of.iter().flat_map(of_metric).collect()
     };

@@ -73,8 +73,7 @@ pub(super) fn growth(rows: &[Sample]) -> (Metric, f64) {
 
 /// Largest change of a cell's mean per 10⁵ steps.
 pub(super) fn drift(before: &[f64], now: &[f64], steps: f64) -> f64 {
-    let moved = before.iter().zip(now).map(|(before, now)| (now - before).abs());
-    moved.fold(0.0, f64::max) * (1e5 / steps)
+    before.iter().zip(now).map(|(before, now)| (now - before).abs()).fold(0.0, f64::max) * (1e5 / steps)
 }
 
 impl<const D: usize, K: Known> Motion<D, K> {
@@ -195,8 +194,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
         let half_period = fit_line(&zeros)?.slope;
         let period = TAU / omega;
         let largest = |from: f64, to: f64| {
-            let inside = rows.iter().filter(|r| (from..=to).contains(&r.time));
-            inside.map(|r| r.mode.abs()).fold(0.0, f64::max)
+            rows.iter().filter(|r| (from..=to).contains(&r.time)).map(|r| r.mode.abs()).fold(0.0, f64::max)
         };
         let (frequency, amplitude) = (PI / half_period / omega, largest(end - period, end) / largest(0.0, period));
         Some([
@@ -241,8 +239,7 @@ impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
         let setup = &scenario.setup;
         setup.check_rule()?;
         let timing = scenario.timing()?;
-        let frequency = K::FREQUENCY.map(|of| of(&setup.values));
-        let frequency = frequency.filter(|_| moves(&setup.values));
+        let frequency = K::FREQUENCY.map(|of| of(&setup.values)).filter(|_| moves(&setup.values));
         let row = match frequency {
             Some(omega) => TAU / omega / ROWS_PER_PERIOD / timing.dt,
             None => timing.steps / ROWS,

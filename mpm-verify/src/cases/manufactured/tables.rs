@@ -97,10 +97,7 @@ fn at_places<const N: usize>(name: &str, metric: Metric, format: Format, places:
 pub(in crate::cases) fn locking<const N: usize>(name: &str, places: [At; N]) -> ResultTable {
     let column = |at: At| {
         Column::row(at.0, move |runs, _| {
-            let error = |at| {
-                let run = runs.iter().find(|r| is_at(r, at));
-                run.map(|r| r.metric(DISPLACEMENT_L2))
-            };
+            let error = |at| runs.iter().find(|r| is_at(r, at)).map(|r| r.metric(DISPLACEMENT_L2));
             match (error(at), error(("", at.1, "poisson_ratio=0.3"))) {
                 (Some(error), Some(soft)) => fixed(2).text(error / soft),
                 _ => String::new(),

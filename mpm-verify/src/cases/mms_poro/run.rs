@@ -92,12 +92,10 @@ impl Moving {
     fn errors<const D: usize>(&self, run: &mut dyn Simulation<D>) -> Errors {
         let (t, pressure, stress) = (run.time(), run.field(Field::PorePressure), run.force_stress());
         let p = run.particles();
-        let exact = p.reference.iter().map(|x| self.solution.at(place(x), t));
-        let exact: Vec<Moment> = exact.collect();
+        let exact: Vec<Moment> = p.reference.iter().map(|x| self.solution.at(place(x), t)).collect();
         let off = |k: usize| {
             let (x, y, u) = (&p.reference[k], &p.position[k], &exact[k].displacement);
-            let parts = (0..D).map(|a| (y[a] - x[a] - u[a]).powi(2));
-            parts.sum::<f64>().sqrt()
+            (0..D).map(|a| (y[a] - x[a] - u[a]).powi(2)).sum::<f64>().sqrt()
         };
         Errors {
             displacement: (0..p.len()).map(off).collect(),

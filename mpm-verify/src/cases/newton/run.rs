@@ -69,8 +69,7 @@ impl Loaded {
         let depth = HEIGHT * yields * yields.exp() * self.modulus / (share * self.weight) + self.setup.h;
         let p = run.particles();
         let volume = if p.j_bar.is_empty() { &p.jacobian } else { &p.j_bar };
-        let flows = (0..p.len()).filter(|k| HEIGHT - p.reference[*k][1] > depth);
-        let errors = flows.flat_map(|k| {
+        let errors = (0..p.len()).filter(|k| HEIGHT - p.reference[*k][1] > depth).flat_map(|k| {
             let (s, j) = (&p.stress[k], volume[k]);
             [s.xx, s.zz].map(|lateral| (j * (lateral - s.yy) / left - 1.0).abs())
         });
@@ -92,8 +91,7 @@ impl Loaded {
     /// Gaps of the lowest particles (m): their mean, and the exact one at a share of the load.
     fn gaps(&self, run: &dyn Simulation<2>, share: f64) -> Result<[f64; 2], Fault> {
         let (p, floor) = (run.particles(), self.floor());
-        let lowest = p.reference.iter().zip(&p.position);
-        let lowest = lowest.filter(|([_, y], _)| *y < self.setup.pitch());
+        let lowest = p.reference.iter().zip(&p.position).filter(|([_, y], _)| *y < self.setup.pitch());
         let gaps: Vec<f64> = lowest.map(|(_, [_, y])| y - floor).collect();
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
         let exact = self.barrier()?.gap(share * self.weight * self.setup.pitch());

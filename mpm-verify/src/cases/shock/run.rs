@@ -65,8 +65,7 @@ impl Bar {
         }
         let sought = 1.0 - share * (1.0 - self.jump.stretch);
         let mean = |k: usize| sums[k][0] / sums[k][1];
-        let reached = (0..cells).rev().find(|k| mean(*k) < sought);
-        reached.map_or(0.0, |k| {
+        (0..cells).rev().find(|k| mean(*k) < sought).map_or(0.0, |k| {
             let beyond = if k + 1 < cells { mean(k + 1) } else { 1.0 };
             (k as f64 + 0.5 + (sought - mean(k)) / (beyond - mean(k))) * h
         })

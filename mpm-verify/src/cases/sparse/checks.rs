@@ -150,8 +150,7 @@ fn noise(records: &[Record]) -> Vec<Finding> {
 
 fn softens(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Cloud> = Run::all(records).collect();
-    let judged = runs.iter().filter(|c| c.is_judged() && c.layout == Layout::Random);
-    let found = judged.filter_map(|run| {
+    let found = runs.iter().filter(|c| c.is_judged() && c.layout == Layout::Random).filter_map(|run| {
         let lattice = run.like(&runs, Layout::Lattice, run.ppc_per_direction)?;
         let why = "strains that answer the noise store less than none: the mean stiffness is that of exact quadrature less their energy";
         let bound = lattice.metric(SOFTENING);
@@ -163,8 +162,7 @@ fn softens(records: &[Record]) -> Vec<Finding> {
 /// The orders of the error over the levels of runs that are alike, by name.
 fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f64)> {
     let runs: Vec<Cloud> = Run::all(records).collect();
-    let firsts = runs.iter().filter(|c| judged(c) && c.level == "n8");
-    let found = firsts.filter_map(|first| {
+    let found = runs.iter().filter(|c| judged(c) && c.level == "n8").filter_map(|first| {
         let ladder = runs.iter().filter(|c| c.scheme == first.scheme && c.set == first.set);
         let points: Vec<_> = ladder.map(|c| (c.h, c.metric(ERROR_MEDIAN))).collect();
         let order = fit_order(&points).map_or(f64::NAN, |o| o.order);

@@ -83,8 +83,7 @@ impl Stretching {
     /// The stretch of what is held: that of the last particle.
     fn stretch<const D: usize>(run: &dyn Simulation<D>) -> f64 {
         let p = run.particles();
-        let all = p.reference.iter().zip(&p.jacobian);
-        let last = all.max_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
+        let last = p.reference.iter().zip(&p.jacobian).max_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]));
         last.map_or(f64::NAN, |(_, j)| j.powf((D as f64).recip()))
     }
 
@@ -151,8 +150,7 @@ impl Stretching {
         let per_cell = self.setup.ppc_per_direction as f64;
         let within = |s: &f64| (s - 1.0).abs() <= (end - 1.0).abs();
         let each = self.stretches(LOOK).take_while(within);
-        let along = each.map(|s| lattice.noise(per_cell / s));
-        along.fold(0.0, f64::max) * (self.setup.dimension as f64).sqrt()
+        each.map(|s| lattice.noise(per_cell / s)).fold(0.0, f64::max) * (self.setup.dimension as f64).sqrt()
     }
 
     /// The first stretch at which the fastest particle and the waves of the exact state pass a cell in a step.
@@ -170,8 +168,7 @@ impl Stretching {
         let end = FREE as f64 * self.setup.h;
         let places = run.particles().position.iter().zip(&stress);
         let free = places.filter(|(x, _)| x.iter().all(|x| x.abs() < end));
-        let axes = free.flat_map(|(_, s)| (0..D).map(move |a| s.get(a, a) / exact));
-        let shares: Vec<f64> = axes.collect();
+        let shares: Vec<f64> = free.flat_map(|(_, s)| (0..D).map(move |a| s.get(a, a) / exact)).collect();
         if shares.is_empty() {
             return [0.0, 1.0];
         }
@@ -300,7 +297,6 @@ impl<const D: usize> Problem<D> for Stretching {
             (PREDICTED_NOISE, Some(predicted)),
             (STRESS_KEPT, Some(seen.kept)),
         ];
-        let values = optional.into_iter();
-        values.filter_map(|(m, v)| Some((m, v?))).collect()
+        optional.into_iter().filter_map(|(m, v)| Some((m, v?))).collect()
     }
 }

@@ -168,10 +168,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
     let own = records.iter().filter(|r| r.status == Status::Ok && is_set_but_steps(r, CLAY));
     let of = |((scheme, level), runs): ((Scheme, &str), Vec<&Record>)| {
         let most = |of: &dyn Fn(&Record) -> f64| runs.iter().map(|r| of(r)).fold(0.0, f64::max);
-        let least = |metric| {
-            let values = runs.iter().map(|r| r.metric(metric));
-            values.fold(f64::INFINITY, f64::min)
-        };
+        let least = |metric| runs.iter().map(|r| r.metric(metric)).fold(f64::INFINITY, f64::min);
         let largest = most(&|r| r.metric(LAST_LOAD));
         let part = most(&|r| number(r, |s| s.load / f64::from(s.steps) / 256.0));
         let moved = most(&|r| r.metric(SETTLEMENT)) - least(SETTLEMENT);

@@ -198,8 +198,7 @@ fn is_set(r: &Record, set: &str) -> bool {
 /// Whether a run changes the parameters of `set`, and beside these at most the number of steps.
 fn is_set_but_steps(r: &Record, set: &str) -> bool {
     let is_other = |s: &&str| !s.starts_with("steps=");
-    let others = r.set.iter().map(String::as_str).filter(is_other);
-    others.eq(set.split_whitespace().filter(is_other))
+    r.set.iter().map(String::as_str).filter(is_other).eq(set.split_whitespace().filter(is_other))
 }
 
 /// Whether a run is of a strip under a small load.

@@ -147,11 +147,9 @@ impl Setup<Strip> {
     fn roughness<const D: usize>(&self, all: &[f64]) -> f64 {
         let row = self.row();
         let is_inner = |place: &[usize; D]| place.iter().all(|i| (1..row - 1).contains(i));
-        let places = self.places().enumerate();
-        let inner = places.filter(|(_, place)| is_inner(place) && self.is_far(*place));
+        let inner = self.places().enumerate().filter(|(_, place)| is_inner(place) && self.is_far(*place));
         rms(inner.map(|(k, _)| {
-            let beside = (0..D).map(|a| row.pow(a as u32));
-            let sum: f64 = beside.map(|next| all[k - next] + all[k + next]).sum();
+            let sum: f64 = (0..D).map(|a| row.pow(a as u32)).map(|next| all[k - next] + all[k + next]).sum();
             all[k] - sum / (2 * D) as f64
         }))
     }
@@ -231,8 +229,7 @@ impl Seen {
     /// Load (Pa) at a settlement (m), by a straight line between steps; NaN where it was not reached.
     fn load_at(&self, settlement: f64) -> f64 {
         let begun = [[0.0; 2]];
-        let before = begun.iter().chain(&self.path);
-        let mut parts = before.zip(&self.path);
+        let mut parts = begun.iter().chain(&self.path).zip(&self.path);
         let part = parts.find(|(_, after)| after[0] >= settlement);
         part.map_or(f64::NAN, |([s, q], [t, r])| q + (r - q) * (settlement - s) / (t - s))
     }

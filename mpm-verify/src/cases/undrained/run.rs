@@ -105,8 +105,7 @@ impl Analysis for Body {
         let inside = |x: &[f64; 2]| fitted || in_ellipse(x);
         let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, inside);
         cloud.places = setup.start_at(cloud.places);
-        let edge = (0..=n * POINTS).map(|k| k as f64 / (n * POINTS) as f64);
-        let held = edge.flat_map(|s| match fitted {
+        let held = (0..=n * POINTS).map(|k| k as f64 / (n * POINTS) as f64).flat_map(|s| match fitted {
             true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
             false => vec![[s, 0.0]],
         });
@@ -246,8 +245,7 @@ impl Body {
         // A constant pressure moves nothing where all of the edge is held.
         let values = p.values(pressure);
         let mean = values.iter().sum::<f64>() / values.len() as f64;
-        let of_pressure = values.iter().zip(&exact).map(|(v, e)| (v - mean - e[2], e[2]));
-        let of_pressure: Vec<(f64, f64)> = of_pressure.collect();
+        let of_pressure: Vec<(f64, f64)> = values.iter().zip(&exact).map(|(v, e)| (v - mean - e[2], e[2])).collect();
         let relative = |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
         let scale = rms(exact.iter().map(|e| e[2]));
         let checkerboard = self.checkerboard(p, pressure) / scale;

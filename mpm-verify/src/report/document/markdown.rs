@@ -49,7 +49,6 @@ impl Table {
     pub(in crate::report) fn markdown(&self) -> String {
         let text = |cell: &Cell| cell.text.markdown().replace('\n', " ") + &cell.aside;
         let row = |row: &Row| row.cells.iter().map(text).collect();
-        let sheet = Sheet::new(self.head.iter().map(text));
-        sheet.with(self.rows.iter().map(row)).markdown()
+        Sheet::new(self.head.iter().map(text)).with(self.rows.iter().map(row)).markdown()
     }
 }

@@ -105,9 +105,7 @@ impl Text {
 
     /// Several with something between them.
     pub(super) fn joined(texts: impl IntoIterator<Item = Self>, between: &str) -> Self {
-        let texts = texts.into_iter();
-        let all = texts.reduce(|all, next| all.then(between).then(next));
-        all.unwrap_or_default()
+        texts.into_iter().reduce(|all, next| all.then(between).then(next)).unwrap_or_default()
     }
 }
 

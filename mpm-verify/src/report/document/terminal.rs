@@ -65,10 +65,7 @@ impl Block {
 
 /// Widths of the columns of a table, whose titles are broken.
 fn widths(sheet: &Sheet) -> Vec<usize> {
-    let width = |k: usize| {
-        let cells = sheet.rows.iter().map(|row| row[k].chars().count());
-        cells.max().unwrap_or(0).max(NARROW)
-    };
+    let width = |k: usize| sheet.rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0).max(NARROW);
     (0..sheet.head.len()).map(width).collect()
 }
 
@@ -98,8 +95,7 @@ pub(in crate::report) fn aligned(sheet: Sheet) -> String {
         .collect();
     let height = titles.iter().map(Vec::len).max().unwrap_or(0);
     let line = |cells: Vec<&str>| {
-        let cells = cells.iter().zip(&widths).enumerate();
-        let cells = cells.map(|(k, (cell, width))| match k {
+        let cells = cells.iter().zip(&widths).enumerate().map(|(k, (cell, width))| match k {
             0 => format!("{:GAP$}{cell:<width$}", ""),
             _ => format!("{:GAP$}{cell:>width$}", ""),
         });

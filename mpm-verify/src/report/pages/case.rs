@@ -78,8 +78,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
         page.list(case.limits.iter().copied());
     });
     page.folded("metrics", "Metrics, and what made the runs", |page| {
-        let metrics = case.metrics.iter();
-        let metrics = metrics.map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
+        let metrics = case.metrics.iter().map(|m| [m.name, m.unit, m.meaning].map(str::to_owned).into());
         page.table("Metrics", Sheet::new(["metric", "unit", "meaning"]).with(metrics));
         page.facts(["program", "night", "commit"].into_iter().zip(made_by(study)));
     });
@@ -88,10 +87,8 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
 
 /// How the runs of a case came out, in a sentence.
 fn sentence(study: &CaseStudy) -> String {
-    let [right, known, not_judged, failed] = OUTCOMES.map(|outcome| {
-        let runs = study.records.iter();
-        runs.filter(|r| outcome_of_run(r) == outcome).count()
-    });
+    let [right, known, not_judged, failed] =
+        OUTCOMES.map(|outcome| study.records.iter().filter(|r| outcome_of_run(r) == outcome).count());
     let limits = verdicts::of_case(study).filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
     let limits = distinct(limits.map(|(_, v)| &*v.check));
     let seen = match limits.is_empty() {
@@ -154,8 +151,7 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
         let (level, set) = (r.level.clone(), r.set.join(" "));
         let first = [Cell::head(r.scheme().to_string()), level.into(), set.into()];
         let verdict = [Text::badge(outcome).into(), why.into()];
-        let values = case.headlines.iter().map(|h| h.of_run(r));
-        let values = values.chain([number(Some(r.time.cpu_s))]).map(Cell::from);
+        let values = case.headlines.iter().map(|h| h.of_run(r)).chain([number(Some(r.time.cpu_s))]).map(Cell::from);
         let cells = first.into_iter().chain(verdict).chain(values).collect();
         Row { id: anchor(r), cells }
     };

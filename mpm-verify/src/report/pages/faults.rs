@@ -8,8 +8,7 @@ use crate::study::summary::Summary;
 /// A line a fault and a column a case that sees any, in the order of the cases; a case has a link where it has a page.
 pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
     let sees = |case: &str| faults.iter().filter(|f| f.seen_by.contains_key(case)).count();
-    let names = cases::all().iter().map(|case| case.name);
-    let names: Vec<&str> = names.filter(|name| sees(name) > 0).collect();
+    let names: Vec<&str> = cases::all().iter().map(|case| case.name).filter(|name| sees(name) > 0).collect();
     let title = |name: &&str| match summary.cases.iter().any(|study| study.case == **name) {
         true => Cell::of(Text::link(*name, format!("{name}.html#checks")), "steep"),
         false => Cell::of(*name, "steep"),

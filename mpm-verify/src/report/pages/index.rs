@@ -22,8 +22,7 @@ pub(super) fn links() -> Vec<Text> {
         ("Seeded faults", "faults.html"),
     ];
     let files = ["summary.md", "summary.json", "junit.xml"].map(|file| (file, file));
-    let links = sections.into_iter().chain(files);
-    links.map(|(name, to)| Text::link(name, to)).collect()
+    sections.into_iter().chain(files).map(|(name, to)| Text::link(name, to)).collect()
 }
 
 pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, out: &Path) -> Result<Document, Error> {
