@@ -300,9 +300,7 @@ impl Given {
     /// Checks that the rows of the series, which stand in these lines of its file, rise along their abscissa.
     pub(crate) fn require_order(&self, abscissa: &Asked, lines: &[u64]) -> Result<(), Error> {
         let column = self.column(abscissa);
-        let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else {
-            return Ok(());
-        };
+        let Some(row) = column.windows(2).position(|pair| pair[1] <= pair[0]) else { return Ok(()) };
         let path = self.tables.iter().find(|(of, ..)| *of == abscissa.part);
         let path = path.map_or(Path::new("series"), |(_, path, _)| path);
         let said = format!(

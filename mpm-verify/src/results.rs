@@ -372,13 +372,9 @@ impl ResultTable {
                 text(runs, all)
             }
             Cell::Run(of, text) => {
-                let Some(run) = runs.iter().copied().find(|r| of(r)) else {
-                    return String::new();
-                };
+                let Some(run) = runs.iter().copied().find(|r| of(r)) else { return String::new() };
                 told.push(run);
-                let Status::Failed = run.status else {
-                    return text(run);
-                };
+                let Status::Failed = run.status else { return text(run) };
                 let again = broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
                 if again { String::new() } else { breakdown(run) }
             }

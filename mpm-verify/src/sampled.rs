@@ -63,9 +63,7 @@ pub(crate) fn uncovered(name: &str, unit: &str, x: &[f64], [from, to]: [f64; 2],
         "-" => format!("{name} = {x:.4e}"),
         _ => format!("{name} = {x:.4e} {unit}"),
     };
-    let ([first, .., last] | [first @ last]) = x else {
-        return Some("the series has no row".to_owned());
-    };
+    let ([first, .., last] | [first @ last]) = x else { return Some("the series has no row".to_owned()) };
     let slack = ROUNDING * to.abs();
     let late = if widest.is_finite() { widest } else { 0.0 };
     if first - from > late + slack {

@@ -64,9 +64,7 @@ impl Wanted {
     fn explain(&self, verdicts: &mut [Verdict]) {
         let seen =
             |v: &&Verdict| v.outcome == Outcome::WrongAsKnown && self.limits.split(' ').any(|name| name == v.check);
-        let Some(limit) = verdicts.iter().find(seen).map(|v| v.check.clone()) else {
-            return;
-        };
+        let Some(limit) = verdicts.iter().find(seen).map(|v| v.check.clone()) else { return };
         let missed = |v: &&mut Verdict| {
             let is_number = v.value.is_some_and(f64::is_finite);
             v.kind == Kind::Truth && v.failed() && is_number && self.by.split(' ').any(|name| name == v.check)

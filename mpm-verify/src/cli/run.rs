@@ -235,9 +235,7 @@ fn tell(case: &Case, record: &Record, told: Told) -> Result<(), Error> {
 /// The record of this very run in a folder, judged again, or `None` if it has not ended there. If its tables differ
 /// from those the run wrote, this is reported and the run made again.
 fn ended(case: &Case, spec: &RunSpec, folder: &Path, told: Told) -> Result<Option<Record>, Error> {
-    let Some(mut record) = own_record(folder, case, spec)? else {
-        return Ok(None);
-    };
+    let Some(mut record) = own_record(folder, case, spec)? else { return Ok(None) };
     let path = folder.join(RECORD);
     let asked = Identity::of(case, spec, &Parameters::new(&case.parameters, &spec.set)?);
     asked.require(&Identity::of_record(&record)).map_err(|refusal| refusal.of(&path))?;

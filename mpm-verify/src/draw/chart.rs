@@ -204,9 +204,7 @@ pub fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize
         let length = if upright { LEAST.1 } else { LEAST.0 };
         let ranges = charts.iter().skip(column).step_by(columns).filter(|c| c.shows_something());
         let ranges = ranges.map(|c| c.range(path, upright, length)).collect::<Result<Vec<_>, _>>()?;
-        let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else {
-            continue;
-        };
+        let Some(all) = extent(ranges.into_iter().flat_map(|(lo, hi)| [lo, hi])) else { continue };
         // The margin of a chart with a short range is little of the common one.
         let (lo, hi) = widen(all, 0.03);
         for chart in charts.iter_mut().skip(column).step_by(columns) {

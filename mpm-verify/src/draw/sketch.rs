@@ -112,9 +112,7 @@ fn beside(at: Point, direction: Point, text: &str) -> Frame {
 
 /// Text with the word after an underscore as a subscript.
 fn subscripted(text: &str) -> String {
-    let Some((head, tail)) = text.split_once('_') else {
-        return escape(text).into_owned();
-    };
+    let Some((head, tail)) = text.split_once('_') else { return escape(text).into_owned() };
     let end = tail.find(|c: char| !c.is_alphanumeric());
     let parts = tail.split_at(end.unwrap_or(tail.len()));
     let [head, index, rest] = [head, parts.0, parts.1].map(escape);

@@ -38,9 +38,7 @@ impl Goldens {
     /// # Errors
     /// The case is not known, or a file can't be read or written.
     pub fn bless(&self, new: Vec<(Run, &Record, &Path)>, reason: &str) -> Result<(), Error> {
-        let Some((_, first, _)) = new.first() else {
-            return Ok(());
-        };
+        let Some((_, first, _)) = new.first() else { return Ok(()) };
         let case = cases::find(&first.case)?;
         let planned = runs(case);
         let mut golden = match self.cases.get(case.name) {

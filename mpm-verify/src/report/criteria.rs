@@ -78,9 +78,7 @@ impl Criterion {
 
     /// The error over that of a run without a remedy, or of the same remedy with the parameters `set`.
     fn over(&self, own: &[&Record], all: &[&Record], set: &str) -> String {
-        let Some(run) = own.iter().find(|r| self.has(r)) else {
-            return String::new();
-        };
+        let Some(run) = own.iter().find(|r| self.has(r)) else { return String::new() };
         let (set, remedy) = match set {
             "" => (&*self.set, RemedyName::None),
             set => (set, run.remedy()),
@@ -111,9 +109,7 @@ fn transfers() -> ResultTable {
     let over = move |title: &str, of: fn(&Record) -> bool| {
         Column::row(title, move |runs, _| {
             let first = |of: &dyn Fn(&Record) -> bool| runs.iter().find(|r| of(r));
-            let (Some(run), Some(own)) = (first(&of), first(&own)) else {
-                return String::new();
-            };
+            let (Some(run), Some(own)) = (first(&of), first(&own)) else { return String::new() };
             fixed(2).text(run.value(ERROR) / own.value(ERROR))
         })
     };

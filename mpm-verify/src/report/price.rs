@@ -68,9 +68,7 @@ impl Prices {
     /// motion, then the last of the stress, which is that of the pressure. Solvers of the case's own kind only: another
     /// kind does other work for a pair, and more beside it.
     pub(super) fn of(study: &CaseStudy) -> Vec<Self> {
-        let Ok(case) = cases::find(&study.case) else {
-            return Vec::new();
-        };
+        let Ok(case) = cases::find(&study.case) else { return Vec::new() };
         let kind = case.default_scheme(None).solver();
         let mut curves = precision(case, &study.records);
         curves.retain(|curve| curve.scheme.solver() == kind);
@@ -148,9 +146,7 @@ impl Prices {
     /// How many times as many pairs as the cheapest, as shown.
     pub(super) fn relative(&self, row: &Price) -> String {
         let cheapest = self.rows.first();
-        let Some((cost, best)) = row.cost.zip(cheapest.and_then(|r| r.cost)) else {
-            return String::new();
-        };
+        let Some((cost, best)) = row.cost.zip(cheapest.and_then(|r| r.cost)) else { return String::new() };
         // A bound on one makes a bound of the ratio, bounds on both an estimate.
         let bound = match (cost.at_most, best.at_most) {
             _ if cheapest == Some(row) => "",
@@ -173,9 +169,7 @@ impl Price {
 
     /// Pairs (10⁶) and CPU time (s) as shown.
     pub(super) fn shown(&self) -> [String; 2] {
-        let Some(cost) = self.cost else {
-            return ["not reached".to_owned(), String::new()];
-        };
+        let Some(cost) = self.cost else { return ["not reached".to_owned(), String::new()] };
         let bound = if cost.at_most { "≤ " } else { "" };
         let short = |value: f64| words::number(Some(value));
         [format!("{bound}{}", short(rounded(1e-6 * cost.pairs))), format!("{bound}{}", short(rounded(cost.cpu_s)))]

@@ -163,9 +163,7 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, Stri
     let (mut rows, mut told) = (Vec::new(), Vec::new());
     let (mut cheaper, mut dearer) = (Vec::new(), Vec::new());
     for problem in &PROBLEMS {
-        let Some([explicit, implicit]) = problem.rivals(records) else {
-            continue;
-        };
+        let Some([explicit, implicit]) = problem.rivals(records) else { continue };
         rows.push(problem.row(explicit, None));
         rows.push(problem.row(implicit, Some(explicit)));
         told.extend([explicit, implicit]);

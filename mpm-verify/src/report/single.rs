@@ -39,9 +39,7 @@ fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Opti
     let flows = bulk(table.column("plastic_strain")).is_some();
     let value = view.map_or(if flows { "plastic_strain" } else { "mean_stress" }, |view| view.value);
     let label = table.iter().map(|(header, _)| header).filter(|h| h.split(" (").next() == Some(value)).last();
-    let (Some(label), Some(range)) = (label, bulk(table.column(value))) else {
-        return Ok(None);
-    };
+    let (Some(label), Some(range)) = (label, bulk(table.column(value))) else { return Ok(None) };
     let d = &record.discretisation;
     let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
     let figure = FieldFigure {

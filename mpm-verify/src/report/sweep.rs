@@ -12,9 +12,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     let case = cases::find(&study.case)?;
     let mut pictures = Vec::new();
     for sweep in &case.sweeps {
-        let Some(runs) = Runs::select(case, sweep, &study.records) else {
-            continue;
-        };
+        let Some(runs) = Runs::select(case, sweep, &study.records) else { continue };
         let shown = |q: &&Quantity| q.is_error && runs.measure(q);
         let (mut entries, mut rows) = (Vec::new(), Vec::new());
         for metric in case.quantities.iter().filter(shown).map(|q| q.metric) {

@@ -120,9 +120,7 @@ impl Page {
             let (line, changed) = values.fill(line).map_err(|e| refuse(e.to_string()))?;
             text.push_str(&line);
             stale.extend(changed);
-            let Some(comment) = line.trim_end().strip_prefix("<!-- ") else {
-                continue;
-            };
+            let Some(comment) = line.trim_end().strip_prefix("<!-- ") else { continue };
             let named = line.trim_end().strip_prefix(BEGIN);
             let bare = Some(comment).filter(|rest| rest.starts_with(speed::NAME));
             let Some(name) = named.or(bare) else {

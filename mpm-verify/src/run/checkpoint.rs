@@ -211,9 +211,7 @@ impl Checkpoint {
 
 /// The content after the checksum, if that is right.
 fn sound_content(bytes: &[u8]) -> Result<&[u8], Refusal> {
-    let Some(rest) = bytes.strip_prefix(&MAGIC) else {
-        return Err(Refusal::NotACheckpoint);
-    };
+    let Some(rest) = bytes.strip_prefix(&MAGIC) else { return Err(Refusal::NotACheckpoint) };
     let missing = |expected| Refusal::Truncated(bytes.len() as u64, expected);
     let head = |size: usize| missing((MAGIC.len() + size) as u64);
     let (format, rest) = rest.split_first_chunk().ok_or_else(|| head(4))?;

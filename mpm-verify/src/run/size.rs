@@ -39,9 +39,7 @@ impl Size {
         for factor in (2..=MOST_LARGER).rev().filter(|n| is_fit(*n)).map(f64::from) {
             let mut of_larger_cells = spec.clone();
             of_larger_cells.level.h *= factor;
-            let Ok((size, dimension)) = Self::built(case, &of_larger_cells, parameters) else {
-                continue;
-            };
+            let Ok((size, dimension)) = Self::built(case, &of_larger_cells, parameters) else { continue };
             let of_growth = |growth: f64| size.times(factor.powf(growth));
             if of_growth(dimension).bytes < BUILT {
                 break;
@@ -137,9 +135,7 @@ pub(super) fn require_particles(job: Box<dyn Job>) -> Result<Box<dyn Job>, Error
 
 /// An error of a scene, with what was set of its parameters if it doesn't name that.
 pub(super) fn given(error: Error, spec: &RunSpec) -> Error {
-    let (Error::Input(_) | Error::Scene(_)) = error else {
-        return error;
-    };
+    let (Error::Input(_) | Error::Scene(_)) = error else { return error };
     let said = error.to_string();
     let names = |set: &&String| set.split('=').next().is_some_and(|name| said.contains(name));
     match spec.set.iter().all(|set| names(&set)) {

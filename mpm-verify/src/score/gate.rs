@@ -26,9 +26,7 @@ impl Gate {
     pub fn known_to(&self, case: &Case) -> Result<(), Error> {
         let judging = case.checks.iter().filter(|c| matches!(c.kind, Kind::Truth | Kind::Bookkeeping));
         let names = distinct(case.wanted.iter().map(|w| w.name).chain(judging.map(|c| c.name)));
-        let Some(unknown) = self.require.iter().find(|name| !names.contains(&&***name)) else {
-            return Ok(());
-        };
+        let Some(unknown) = self.require.iter().find(|name| !names.contains(&&***name)) else { return Ok(()) };
         let distance = |name: &&&str| strsim::damerau_levenshtein(unknown, name);
         let nearest = names.iter().min_by_key(distance).copied().unwrap_or_default();
         let kind = format!("check of {}", case.name);

@@ -193,9 +193,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
     let asked = foreign.parts();
     let (mut tables, mut lines) = (Vec::new(), Vec::new());
     for (part, name) in named {
-        let Some(name) = name.as_ref().filter(|_| asked.contains(&part)) else {
-            continue;
-        };
+        let Some(name) = name.as_ref().filter(|_| asked.contains(&part)) else { continue };
         require_inside(folder, Path::new(&name.0))?;
         let path = folder.join(&name.0);
         let table = match path.extension().and_then(|e| e.to_str()) {

@@ -54,9 +54,7 @@ impl Completeness {
             if cases.last().is_none_or(|(case, _)| *case != run.case) {
                 cases.push((run.case.clone(), Known::default()));
             }
-            let Some((_, known)) = cases.last_mut() else {
-                continue;
-            };
+            let Some((_, known)) = cases.last_mut() else { continue };
             let [case, level] = [&run.case, &run.level].map(String::clone);
             known.planned += 1;
             match made.get(&[case, run.scheme.to_string(), level, run.set.join(" ")]) {

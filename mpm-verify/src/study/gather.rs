@@ -171,9 +171,7 @@ fn judged(
 
 /// Whether one program made all records.
 fn of_one_program<'a>(mut records: impl Iterator<Item = &'a Record>) -> Result<(), Error> {
-    let Some(first) = records.next() else {
-        return Ok(());
-    };
+    let Some(first) = records.next() else { return Ok(()) };
     match records.find(|r| r.version != first.version) {
         None => Ok(()),
         Some(other) => Err(Error::Input(format!(
@@ -195,9 +193,7 @@ fn read_plans(folders: &[PathBuf]) -> Result<Vec<(&Path, Plan)>, Error> {
         plans.push((folder.as_path(), Plan::read(folder)?));
     }
     plans.sort_by_key(|(_, plan)| plan.shard.index);
-    let Some((first, whole)) = plans.first() else {
-        return Err(Error::Input("no folder is given".to_owned()));
-    };
+    let Some((first, whole)) = plans.first() else { return Err(Error::Input("no folder is given".to_owned())) };
     for (k, (folder, plan)) in plans.iter().enumerate() {
         if !plan.is_of_one_whole_with(whole) {
             return Err(Error::Input(format!(

@@ -148,9 +148,7 @@ fn steps(records: &[Record]) -> Vec<Finding> {
         let own = |b: &&Beam| b.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)
     };
-    let (Some(few), Some(own), Some(many)) = (at(5), at(20), at(160)) else {
-        return Vec::new();
-    };
+    let (Some(few), Some(own), Some(many)) = (at(5), at(20), at(160)) else { return Vec::new() };
     let change = (few.metric(CORNER_UY) - many.metric(CORNER_UY)).abs();
     let error = own.metric(CORNER_ERROR) * own.metric(CORNER_UY).abs();
     let why = "the path doesn't matter to an elastic law; only the grid is reset more often";
@@ -180,9 +178,7 @@ fn linear_update(records: &[Record]) -> Vec<Finding> {
         runs.iter().filter(own).find(|b| b.load_steps == steps)
     };
     let errors = [10, 20, 40].map(|steps| at(steps).map(|b| b.metric(CORNER_ERROR)));
-    let [Some(ten), Some(twenty), Some(forty)] = errors else {
-        return Vec::new();
-    };
+    let [Some(ten), Some(twenty), Some(forty)] = errors else { return Vec::new() };
     let why = "the paper's Eqs. (9) and (10) are linear in the step";
     vec![
         Finding::above("error at 10 steps over that at 20", ten / twenty, 1.5, why),

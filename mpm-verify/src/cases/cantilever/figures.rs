@@ -24,9 +24,7 @@ fn beams(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
     for (basis, title, level, set) in shown {
         let of = |r: &&Record| r.basis() == basis && r.level == level && r.set == set && r.status == Status::Ok;
-        let Some(record) = gallery.records.iter().find(of) else {
-            return Ok(());
-        };
+        let Some(record) = gallery.records.iter().find(of) else { return Ok(()) };
         let table = gallery.table(record, "particles.csv")?;
         let [from, to] = [STRESS_MIN, STRESS_MAX].map(|m| fixed(1).text(1e-3 * record.metric(m)));
         panels.push(FieldPanel {

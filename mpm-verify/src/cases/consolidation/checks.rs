@@ -114,9 +114,7 @@ fn orders(records: &[Record]) -> Vec<Finding> {
 /// index.
 fn richardson(records: &[Record]) -> Vec<Finding> {
     let of = |((load, scheme), runs): ((String, Scheme), Vec<&Record>)| {
-        let [coarse, middle, fine] = runs[..] else {
-            return None;
-        };
+        let [coarse, middle, fine] = runs[..] else { return None };
         let exact = Setup::<Consolidation>::of_record(fine).ok()?;
         let exact = solution(exact.load, Some(f64::from(exact.refine)));
         let exact = exact.first()?.settlement;

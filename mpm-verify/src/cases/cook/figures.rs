@@ -27,9 +27,7 @@ fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let levels: Vec<&str> = ["h0.5", "h1", "h2"].into_iter().filter(has).take(2).collect();
     for level in levels.into_iter().rev() {
         for remedy in [RemedyName::None, FbarConsistent] {
-            let Some(record) = runs.find(basis, remedy, level) else {
-                continue;
-            };
+            let Some(record) = runs.find(basis, remedy, level) else { continue };
             let table = runs.gallery.table(record, "particles.csv")?;
             let title = format!("{}, h = {} m", remedy_title(remedy), record.discretisation.h);
             let outline = OUTLINE.to_vec();
@@ -77,9 +75,7 @@ fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
 
 /// Approach to rest at the finest level that all remedies have run with GIMP.
 fn rest(runs: &mut Exhibit) -> Result<(), Error> {
-    let Some(level) = runs.level(Gimp, &REMEDIES, &["h1", "h2"]) else {
-        return Ok(());
-    };
+    let Some(level) = runs.level(Gimp, &REMEDIES, &["h1", "h2"]) else { return Ok(()) };
     let panel = |title: &str, label: &str, column: &str, remedies: &[RemedyName]| {
         let shown = remedies.iter().filter_map(|remedy| runs.find(Gimp, *remedy, level));
         let panel = Panel::new(title, ["time (s)", label]);

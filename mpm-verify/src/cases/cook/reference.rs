@@ -208,9 +208,7 @@ impl Setup<Cook> {
 
 /// The references in words.
 pub(super) fn describe() -> Vec<String> {
-    let Ok(document) = document() else {
-        return Vec::new();
-    };
+    let Ok(document) = document() else { return Vec::new() };
     let mut lines = vec![document.method.clone()];
     lines.extend(document.solutions.iter().map(|s| {
         let [mid_edge, edge_mean, tip] = Measure::ALL.map(|measure| s.of(measure));

@@ -50,9 +50,7 @@ fn level_title(level: &str) -> String {
 
 /// The water at `time` (s) in colours of its pressure, if the run has kept it.
 fn panel(runs: &Exhibit, record: &Record, time: f64, title: String) -> Result<Option<FieldPanel>, Error> {
-    let Some(table) = runs.gallery.snapshot(record, time)? else {
-        return Ok(None);
-    };
+    let Some(table) = runs.gallery.snapshot(record, time)? else { return Ok(None) };
     let values = table.column("pressure").iter().map(|p| 1e-3 * p).collect();
     let panel = FieldPanel { values, outline: OUTLINE.to_vec(), ..field_panel(record, &table, title, "pressure") };
     Ok(Some(panel.showing(|(_, y)| y <= HEIGHT)))
@@ -80,9 +78,7 @@ fn figure(panels: Vec<FieldPanel>, columns: usize) -> Fields {
 }
 
 fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
-    let Some(level) = runs.level(basis, &SHOWN, &PREFERRED) else {
-        return Ok(());
-    };
+    let Some(level) = runs.level(basis, &SHOWN, &PREFERRED) else { return Ok(()) };
     let mut columns = Vec::new();
     for time in TIMES {
         let column = column(runs, (basis, level), time)?;
@@ -104,9 +100,7 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 }
 
 fn animation(runs: &mut Exhibit) -> Result<(), Error> {
-    let Some(level) = runs.level(Gimp, &SHOWN, &PREFERRED) else {
-        return Ok(());
-    };
+    let Some(level) = runs.level(Gimp, &SHOWN, &PREFERRED) else { return Ok(()) };
     let mut frames = Vec::new();
     for k in 1.. {
         let column = column(runs, (Gimp, level), f64::from(k) * FRAME)?;
@@ -134,9 +128,7 @@ fn flow(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         ("energy", 1e-3, "energy (kJ/m)"),
         ("front_force", 1e-3, "force on the front wall (kN/m)"),
     ];
-    let Some(shared) = runs.level(basis, &SHOWN, &PREFERRED) else {
-        return Ok(());
-    };
+    let Some(shared) = runs.level(basis, &SHOWN, &PREFERRED) else { return Ok(()) };
     let (mut by_remedy, mut by_level) = (Vec::new(), Vec::new());
     for (column, factor, label) in quantities {
         let points = |_: &Record, t: &Table| t.pairs(["time", column], |t, v| (t, factor * v));

@@ -105,9 +105,7 @@ impl Setup<Excavation> {
     /// which a rough base allows, and of a foot that slides on its base.
     pub(super) fn factor(&self, cut: f64, cohesion: f64) -> (f64, f64) {
         let slope = Slope::new(HEIGHT, FRAC_PI_4, 1.0).and_then(|s| s.cut(cut));
-        let Ok(slope) = slope else {
-            return (f64::NAN, f64::NAN);
-        };
+        let Ok(slope) = slope else { return (f64::NAN, f64::NAN) };
         let arc = slope.critical();
         let length = arc.circle.radius * arc.circle.angle();
         let turning = arc.factor_of_safety(cohesion, self.unit_weight);

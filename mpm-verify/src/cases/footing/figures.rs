@@ -127,9 +127,7 @@ fn panel(
 
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let remedies = [RemedyName::None, FbarConsistent];
-    let Some(level) = runs.level(basis, &remedies, &LEVELS) else {
-        return Ok(());
-    };
+    let Some(level) = runs.level(basis, &remedies, &LEVELS) else { return Ok(()) };
     let mut panels = Vec::new();
     for remedy in remedies {
         if let Some(record) = runs.find(basis, remedy, level) {
@@ -150,9 +148,7 @@ fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let remedy = FbarConsistent;
     let level = runs.level(basis, &[remedy], &LEVELS);
-    let Some(record) = level.and_then(|level| runs.find(basis, remedy, level)) else {
-        return Ok(());
-    };
+    let Some(record) = level.and_then(|level| runs.find(basis, remedy, level)) else { return Ok(()) };
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(&record.level));
     let stroke = 0.25 * Setup::<Footing>::number_of(record, |c| c.penetration);

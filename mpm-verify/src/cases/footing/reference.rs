@@ -219,9 +219,7 @@ impl Setup<Footing> {
                 && close(s.domain, f64::from(self.domain_width))
                 && close(s.domain, f64::from(self.domain_depth))
         });
-        let Some(slopes) = found else {
-            return Err(format!("no slope for ν = {ratio} and this domain"));
-        };
+        let Some(slopes) = found else { return Err(format!("no slope for ν = {ratio} and this domain")) };
         let slope = match self.elements()? {
             Elements::Vanishing => slopes.slope,
             Elements::OfCells => {
@@ -238,9 +236,7 @@ pub(super) fn describe() -> Vec<String> {
     let mut lines = vec![format!(
         "Prandtl (1920): limit load q = (2 + π) s_u = {EXACT:.4} s_u, exact for a rigid, perfectly plastic half-space"
     )];
-    let Ok(document) = document() else {
-        return lines;
-    };
+    let Ok(document) = document() else { return lines };
     lines.push(document.method.clone());
     let rough = document.meshes.iter().filter(|s| s.formulation == "mean_dilatation" && s.contact == "rough");
     lines.extend(rough.filter_map(|s| {

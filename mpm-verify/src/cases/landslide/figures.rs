@@ -115,9 +115,7 @@ impl<'a> ShownRuns<'a> {
     fn at(&self, gallery: &Gallery, (basis, level): (BasisName, &str), time: f64) -> Result<Vec<Shown>, Error> {
         let mut shown = Vec::new();
         for record in self.remedies(basis, level) {
-            let Some(particles) = gallery.snapshot(record, time)? else {
-                return Ok(Vec::new());
-            };
+            let Some(particles) = gallery.snapshot(record, time)? else { return Ok(Vec::new()) };
             shown.push(Shown {
                 title: format!("{}, {time:.1} s", remedy_title(record.remedy())),
                 spacing: spacing(record),
@@ -200,9 +198,7 @@ fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
     let colour = |r: &Record| levels.iter().position(|level| *level == r.level);
     let mut panels = Vec::new();
     for basis in BASES {
-        let Some(level) = runs.levels(basis).first().copied() else {
-            continue;
-        };
+        let Some(level) = runs.levels(basis).first().copied() else { continue };
         let of = basis_title(basis);
         // Since the reduction of the strength.
         let panel = |title: &str, records: Vec<_>, (column, (factor, start), label)| {

@@ -74,9 +74,7 @@ impl Wave {
     /// ω/kc.
     fn ratio(&self, r: &Run<()>) -> f64 {
         let number = |p| r.values.number(p);
-        let Ok(law) = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO)) else {
-            return f64::NAN;
-        };
+        let Ok(law) = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO)) else { return f64::NAN };
         let density = number(DENSITY);
         let speed = if self.shear { (law.mu / density).sqrt() } else { law.wave_speed(density) };
         number(ANGULAR_FREQUENCY) / ((self.number)(&r.values) * speed)

@@ -100,9 +100,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
 
     /// The share of the displacement since the start that has the shape of the standing wave.
     fn mode(&self, run: &dyn Simulation<D>) -> f64 {
-        let Some(omega) = self.frequency else {
-            return f64::NAN;
-        };
+        let Some(omega) = self.frequency else { return f64::NAN };
         let (p, solution) = (run.particles(), &self.scenario.solution);
         let quarter = 0.5 * PI / omega;
         let (mut along, mut squares) = (0.0, 0.0);
@@ -215,9 +213,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
 
     /// Metrics of a body at rest: drifts of the cells' means, and the pressure at the base.
     fn rest(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Vec<(Metric, f64)> {
-        let Some([averaged, own]) = &seen.at_start else {
-            return Vec::new();
-        };
+        let Some([averaged, own]) = &seen.at_start else { return Vec::new() };
         let (now, stress) = (self.volumes(run), run.force_stress());
         let p = run.particles();
         let [heights, mean] = [p.seeded(|k| p.reference[k][D - 1]), p.seeded(|k| stress[k].mean())];

@@ -12,9 +12,7 @@ pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f6
             .records
             .iter()
             .find(|r| r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok);
-        let Some(run) = run else {
-            continue;
-        };
+        let Some(run) = run else { continue };
         let table = gallery.table(run, "particles.csv")?;
         panels.push(field_panel(run, &table, scheme.title(), "mean_stress"));
     }

@@ -7,9 +7,7 @@ use crate::sketch::Point;
 /// The body at rest, seen along the third axis; a bar is drawn with a thickness.
 pub(super) fn sketch<K: Known>() -> Sketch {
     let solution = Parameters::new(&K::parameters(), &[]).and_then(|p| (K::SOLUTION)(&p));
-    let Ok(solution) = solution else {
-        return Sketch::default();
-    };
+    let Ok(solution) = solution else { return Sketch::default() };
     let [[x0, x1], [mut y0, mut y1], _] = solution.extent();
     let width = x1 - x0;
     if solution.dimension() == 1 {

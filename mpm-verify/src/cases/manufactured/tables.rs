@@ -114,9 +114,7 @@ pub(in crate::cases) fn price<const N: usize>(name: &str, levels: [&'static str;
         [("u", DISPLACEMENT_L2), ("σ_m", MEAN_STRESS_L2)].map(|(symbol, metric)| {
             Column::row(format!("{level}: {symbol}"), move |runs, all| {
                 let here = |r: &&&Record| r.level == level;
-                let Some(run) = runs.iter().find(here) else {
-                    return String::new();
-                };
+                let Some(run) = runs.iter().find(here) else { return String::new() };
                 let none = |r: &&&Record| here(r) && r.remedy() == RemedyName::None;
                 let same = |r: &&&Record| none(r) && r.basis() == run.basis();
                 let error = all.iter().find(same).map_or(f64::NAN, |r| r.metric(metric));

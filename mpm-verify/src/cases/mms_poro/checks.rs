@@ -87,9 +87,7 @@ fn claim(metric: Metric, runs: &[&Record]) -> Result<(f64, &'static str), &'stat
 fn of_ladders(records: &[Record], found: impl Fn(Metric, &[&Record]) -> Option<Finding>) -> Vec<Finding> {
     let mut all = Vec::new();
     for (_, runs) in ladders(records) {
-        let Some(runs) = finest(&runs).filter(|runs| !is_of_rates(runs[0])) else {
-            continue;
-        };
+        let Some(runs) = finest(&runs).filter(|runs| !is_of_rates(runs[0])) else { continue };
         all.extend([DISPLACEMENT_L2, PRESSURE_L2].into_iter().filter_map(|metric| found(metric, runs)));
     }
     all

@@ -118,9 +118,7 @@ fn beside(r: &Record) -> Option<f64> {
 
 /// A value of the finest three of some runs.
 fn of_finest(runs: &[&Record], value: impl Fn(&Record) -> f64) -> Option<[f64; 3]> {
-    let [coarse, middle, fine] = finest(runs)? else {
-        return None;
-    };
+    let [coarse, middle, fine] = finest(runs)? else { return None };
     Some([coarse, middle, fine].map(|r| value(r)))
 }
 
@@ -138,9 +136,7 @@ fn settlements(records: &[Record]) -> Vec<Finding> {
 
 fn squares(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let [.., coarse, fine] = runs[..] else {
-            return None;
-        };
+        let [.., coarse, fine] = runs[..] else { return None };
         let ratio = |r: &Record| r.metric(SETTLEMENT_RATIO);
         let index = SAFE[1] * (ratio(coarse) - ratio(fine)).abs();
         let bound = index + beside(fine)?;

@@ -150,9 +150,7 @@ impl Analysis for Body {
     }
 
     fn metrics(&self, found: &[Found]) -> Vec<(Metric, f64)> {
-        let Some(found) = found.first() else {
-            return Vec::new();
-        };
+        let Some(found) = found.first() else { return Vec::new() };
         let mut all = vec![
             (INF_SUP, found.inf_sup),
             (ZERO_MODES, found.zero_modes),

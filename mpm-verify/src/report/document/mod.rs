@@ -46,9 +46,7 @@ impl Text {
                 let (inner, after) = rest[place + open.len()..].split_once(close)?;
                 Some((&rest[..place], inner, *kind, after))
             });
-            let Some((before, inner, kind, after)) = parts else {
-                return text.span("plain", rest, "");
-            };
+            let Some((before, inner, kind, after)) = parts else { return text.span("plain", rest, "") };
             let (inner, to) = inner.split_once("](").unwrap_or((inner, ""));
             text = text.span("plain", before, "").span(kind, inner, to);
             rest = after;

@@ -70,9 +70,7 @@ fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>
     }
     let judged = families.into_iter().filter_map(|((level, scheme, others), mut family)| {
         family.sort_by(|a, b| b.discretisation.dt.total_cmp(&a.discretisation.dt));
-        let [.., a, b, c] = family[..] else {
-            return None;
-        };
+        let [.., a, b, c] = family[..] else { return None };
         let points = [a, b, c].map(|r| (r.discretisation.dt, r.metric(DISPLACEMENT_RATIO)));
         let order = richardson(points).map_or(f64::NAN, |r| r.order);
         let set: String = others.iter().map(|set| format!(" {set}")).collect();
