@@ -18,10 +18,7 @@ pub fn is_unfit(c: char) -> bool {
 pub fn one_line(message: &str) -> String {
     let mut line = String::new();
     for c in message.chars() {
-        match is_unfit(c) {
-            true => line.extend(c.escape_default()),
-            false => line.push(c),
-        }
+        if is_unfit(c) { line.extend(c.escape_default()) } else { line.push(c) }
     }
     let ends: Vec<usize> = line.char_indices().map(|(place, _)| place).collect();
     if ends.len() > LONGEST {

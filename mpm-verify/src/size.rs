@@ -45,10 +45,7 @@ impl Size {
 
 impl std::fmt::Display for Size {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let count = |n: f64| match self.worked_out {
-            true => format!("about {n:.2e}"),
-            false => n.to_string(),
-        };
+        let count = |n: f64| if self.worked_out { format!("about {n:.2e}") } else { n.to_string() };
         let (particles, nodes) = (count(self.particles), count(self.nodes));
         let memory = match self.bytes < GIBIBYTE {
             true => format!("{:.1} MiB", self.bytes / MEBIBYTE),

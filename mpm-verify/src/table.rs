@@ -125,10 +125,7 @@ impl Table {
     pub fn read_own(path: &Path) -> Result<Self, Error> {
         let table = Self::read_finite(path)?;
         let own = csv_text(&table.header, table.lines()).map_err(|e| Error::file(path, e))?;
-        match read(path, TABLE)? == own {
-            true => Ok(table),
-            false => Err(Error::file(path, OTHER_LAYOUT)),
-        }
+        if read(path, TABLE)? == own { Ok(table) } else { Err(Error::file(path, OTHER_LAYOUT)) }
     }
 
     /// Number of rows.

@@ -54,10 +54,7 @@ type Column<'a, T> = (&'a str, &'a dyn Fn(&T) -> String);
 fn table<T>(title: &str, rows: impl IntoIterator<Item = T>, columns: &[Column<'_, T>]) -> String {
     let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect();
     let sheet = Sheet::new(columns.iter().map(|(title, _)| *title)).with(rows.into_iter().map(cells));
-    match sheet.rows.is_empty() {
-        true => String::new(),
-        false => format!("\n## {title}\n\n{}", sheet.markdown()),
-    }
+    if sheet.rows.is_empty() { String::new() } else { format!("\n## {title}\n\n{}", sheet.markdown()) }
 }
 
 fn aims_table(bench: &Measurements) -> String {
@@ -219,8 +216,5 @@ pub(super) fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error
     let labels = ["particles", "CPU time per particle and step (ns)"];
     let chart =
         Chart { x_scale: Scale::Log10, ..Chart::new("Cost of a particle's step on one thread", labels, series) };
-    match chart.shows_something() {
-        true => Ok(draw_charts(&out.join("scaling.png"), &[chart], 1)?),
-        false => Ok(()),
-    }
+    if chart.shows_something() { Ok(draw_charts(&out.join("scaling.png"), &[chart], 1)?) } else { Ok(()) }
 }

@@ -71,10 +71,7 @@ pub(super) struct Index {
 pub(super) fn index([coarse, middle, fine]: [f64; 3], theory: f64, resolved: bool) -> Index {
     let steps = [coarse - middle, middle - fine];
     let shown = (steps[0] / steps[1]).log2();
-    let (order, safe) = match resolved && shown > 0.0 {
-        true => (shown.min(theory), SAFE[0]),
-        false => (1.0, SAFE[1]),
-    };
+    let (order, safe) = if resolved && shown > 0.0 { (shown.min(theory), SAFE[0]) } else { (1.0, SAFE[1]) };
     let bound = safe * steps[1].abs() / (order.exp2() - 1.0);
     Index { order, safe, bound }
 }

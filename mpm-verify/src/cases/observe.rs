@@ -16,10 +16,7 @@ impl<P: ParameterSet> Setup<P> {
     /// Wall treatment and remedy of an explicit run that takes steps of `dt` (s), and local damping if there is any.
     pub(super) fn settings<const D: usize>(&self, dt: f64, damping: f64) -> Result<Settings<D>, mpm_core::Error> {
         let settings = Settings::new(dt).wall(self.wall_treatment()).remedy(self.remedy().build());
-        match damping > 0.0 {
-            true => Ok(settings.filter_forces(LocalDamping::new(damping)?)),
-            false => Ok(settings),
-        }
+        if damping > 0.0 { Ok(settings.filter_forces(LocalDamping::new(damping)?)) } else { Ok(settings) }
     }
 
     /// The discretisation in `dim` dimensions with `ppc` particles a cell and steps of `dt` (s).

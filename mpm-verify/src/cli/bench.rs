@@ -45,10 +45,7 @@ impl Bench {
 
 /// One thread and the requested numbers, all cores by default.
 fn compared_threads(asked: Vec<usize>) -> Vec<usize> {
-    let mut threads = match asked.is_empty() {
-        true => vec![or_all_cores(None)],
-        false => asked,
-    };
+    let mut threads = if asked.is_empty() { vec![or_all_cores(None)] } else { asked };
     threads.push(1);
     threads.sort_unstable();
     threads.dedup();

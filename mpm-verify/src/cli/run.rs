@@ -69,10 +69,7 @@ impl Run {
     fn scheme_of_parts(&self) -> Result<Scheme, Error> {
         let own = self.case.default_scheme(self.solver.as_deref());
         let solver = self.solver.as_deref().unwrap_or(own.solver());
-        let usual = match solver == own.solver() {
-            true => own.transfer(),
-            false => TransferName::None,
-        };
+        let usual = if solver == own.solver() { own.transfer() } else { TransferName::None };
         let remedy = match solver {
             "poro" => RemedyName::None,
             _ => own.remedy(),

@@ -29,10 +29,7 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
     let mut pictures = Vec::new();
     let all = || study.convergence.iter().filter(|c| c.is_error);
     for set in distinct(all().map(|c| &c.set[..])) {
-        let changed = match set.is_empty() {
-            true => String::new(),
-            false => format!(" with {}", set.join(", ")),
-        };
+        let changed = if set.is_empty() { String::new() } else { format!(" with {}", set.join(", ")) };
         let name = match set {
             _ if set == case.ladder => "convergence.png".to_owned(),
             [] => "convergence-own.png".to_owned(),

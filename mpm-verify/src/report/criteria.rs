@@ -58,10 +58,7 @@ impl Criterion {
             "over-none" | "over-set" => Column::row(title, move |own, all| self.over(own, all, &of)),
             "at-rest" => Column::text(title, move |r| {
                 let error = fixed(2).times(100.0).text(r.value(&of));
-                match r.value("at_rest") == 1.0 {
-                    true => error,
-                    false => format!("{error}, never at rest"),
-                }
+                if r.value("at_rest") == 1.0 { error } else { format!("{error}, never at rest") }
             })
             .of(move |r| this.has(r)),
             "frequency" => Column::text(title, |r| match r.value("log_jacobian_gap") > DISORDER {

@@ -168,10 +168,7 @@ impl<'a> Panel<'a> {
     pub(super) fn marks(&self) -> Text {
         let marks = self.errors.iter().zip('a'..='z');
         let marks = marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));
-        match self.errors.is_empty() {
-            true => Text::default(),
-            false => Text::joined(marks, ", ").then("."),
-        }
+        if self.errors.is_empty() { Text::default() } else { Text::joined(marks, ", ").then(".") }
     }
 }
 

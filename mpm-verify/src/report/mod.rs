@@ -151,10 +151,7 @@ fn owning<T>(out: &Path, write: impl FnOnce() -> Result<T, Error>) -> Result<T, 
 pub fn discard_report(out: &Path) -> Result<(), Error> {
     let places = places(out)?;
     let path = out.join(OWN);
-    let account = match path.exists() {
-        true => read_text(&path)?,
-        false => String::new(),
-    };
+    let account = if path.exists() { read_text(&path)? } else { String::new() };
     let claimed = account == CLAIM;
     let own: BTreeSet<&str> = account.lines().skip(1).collect();
     let foreign = |file: &&PathBuf| !claimed && !own.contains(&*file.display().to_string());

@@ -123,10 +123,7 @@ impl Row {
         let spec = RunSpec { scheme, level: case.levels[0], set, perturbed: false };
         Some(Record {
             level: self.level.clone(),
-            status: match self.status == "ok" {
-                true => Status::Ok,
-                false => Status::Failed,
-            },
+            status: if self.status == "ok" { Status::Ok } else { Status::Failed },
             error,
             metrics: metrics.collect(),
             verdicts: self.verdicts(),

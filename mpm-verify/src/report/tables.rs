@@ -155,10 +155,7 @@ impl Page {
     /// # Errors
     /// The file can't be written.
     pub fn write(&self) -> Result<(), Error> {
-        match self.stale.is_empty() {
-            true => Ok(()),
-            false => write_whole(&self.file, self.text.as_bytes()),
-        }
+        if self.stale.is_empty() { Ok(()) } else { write_whole(&self.file, self.text.as_bytes()) }
     }
 }
 

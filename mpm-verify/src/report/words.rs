@@ -51,10 +51,7 @@ pub(super) fn name(record: &Record) -> String {
 /// Names in a sentence.
 pub(super) fn list(names: impl IntoIterator<Item = impl Into<String>>) -> String {
     let names: Vec<String> = names.into_iter().map(Into::into).collect();
-    match names.is_empty() {
-        true => "none".to_owned(),
-        false => names.join(", "),
-    }
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
 /// The verdict on a run in a sentence: its outcome, and the checks that decide it.
@@ -118,10 +115,7 @@ pub(super) fn number(value: Option<f64>) -> String {
         Some(x) if (1e-3..1e6).contains(&x.abs()) => {
             let decimals = (4 - x.abs().log10().floor() as i32).max(0) as usize;
             let text = format!("{x:.decimals$}");
-            match text.contains('.') {
-                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-                false => text,
-            }
+            if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
         }
         Some(x) => format!("{x:.2e}"),
     }

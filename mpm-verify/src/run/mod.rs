@@ -184,10 +184,7 @@ impl Journal {
     fn open(folder: &Path, saving: Saving, identity: Identity, job: &mut dyn Job) -> Result<(Self, Timing), Error> {
         make_folder(folder)?;
         require_inside(folder, Path::new(SNAPSHOTS))?;
-        let found = match saving.resume {
-            true => Checkpoint::read(folder, &identity)?,
-            false => None,
-        };
+        let found = if saving.resume { Checkpoint::read(folder, &identity)? } else { None };
         let resumed = match found {
             None => None,
             Some(checkpoint) => {
@@ -258,10 +255,7 @@ pub fn require_tables(record: &Record, folder: &Path) -> Result<(), Error> {
     let needed = series::FILE.to_owned();
     let names: BTreeSet<&String> = record.files.keys().chain(&there).chain([&needed]).collect();
     for name in names {
-        let found = match there.contains(name) {
-            true => Some(Mark::of(&read(&folder.join(name), TABLE)?)),
-            false => None,
-        };
+        let found = if there.contains(name) { Some(Mark::of(&read(&folder.join(name), TABLE)?)) } else { None };
         let recorded = record.files.get(name).copied();
         if found != recorded || found.is_none() {
             let told = |mark: Option<Mark>| {

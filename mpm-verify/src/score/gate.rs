@@ -70,10 +70,7 @@ impl Gate {
     #[must_use]
     pub fn exit_code(&self, scores: &Scores) -> ExitCode {
         let failed = scores.judged().iter().any(|(_, all, _)| all.iter().any(Verdict::failed));
-        match failed || self.refusal(scores).is_some() {
-            true => ExitCode::TruthFailed,
-            false => ExitCode::Good,
-        }
+        if failed || self.refusal(scores).is_some() { ExitCode::TruthFailed } else { ExitCode::Good }
     }
 }
 

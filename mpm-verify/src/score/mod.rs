@@ -235,10 +235,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
     let why = |v: &Verdict| {
         let lacking = group_of(v).into_iter().flat_map(|g| g.columns).filter(|c| !given.has(c)).map(Asked::place);
         let lacking: Vec<String> = lacking.collect();
-        match lacking.is_empty() {
-            true => open(gaps, v),
-            false => Some(format!("missing: {}", lacking.join(", "))),
-        }
+        if lacking.is_empty() { open(gaps, v) } else { Some(format!("missing: {}", lacking.join(", "))) }
     };
     let judged = demands(case.verdicts(record), why).filter(|v| foreign.asks(&v.check) && group_of(v).is_some());
     settled(&case.wanted, judged.collect())

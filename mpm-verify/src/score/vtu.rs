@@ -134,10 +134,7 @@ impl Array {
                 return Err(format!("format {other:?}; allowed: ascii, binary, appended"));
             }
         };
-        match numbers.len() == count {
-            true => Ok(numbers),
-            false => Err(short()),
-        }
+        if numbers.len() == count { Ok(numbers) } else { Err(short()) }
     }
 
     /// Unpacks `count` numbers of packed bytes: their length, or the sizes of compressed blocks, goes before them.

@@ -88,10 +88,7 @@ pub fn outcome_of<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> Ou
 /// The outcome of a run.
 #[must_use]
 pub fn outcome_of_run(record: &Record) -> Outcome {
-    match record.broke_down() {
-        true => Outcome::Failed,
-        false => outcome_of(record.verdicts.iter()),
-    }
+    if record.broke_down() { Outcome::Failed } else { outcome_of(record.verdicts.iter()) }
 }
 
 /// The verdict with the tightest margin among those that judge wanted quantities, of the `records` that are right.

@@ -144,10 +144,7 @@ const SMALL: [&str; 3] = ["domain_width=3", "domain_depth=3", "penetration=0.002
 fn own_runs(records: &[Record]) -> Vec<&Record> {
     let own = of_defaults(records);
     let small = |r: &&Record| r.set == SMALL;
-    match own.is_empty() {
-        true => records.iter().filter(small).collect(),
-        false => own,
-    }
+    if own.is_empty() { records.iter().filter(small).collect() } else { own }
 }
 
 /// Five times the penetration, through either contact.
@@ -247,10 +244,7 @@ fn changed(r: &Record) -> String {
 
 /// N_c by its own width, which a barrier does not let know.
 fn own(r: &Record) -> f64 {
-    let known = |c: &Setup<Footing>| match c.presses_by_barrier() {
-        true => f64::NAN,
-        false => r.metric(NC_EFFECTIVE),
-    };
+    let known = |c: &Setup<Footing>| if c.presses_by_barrier() { f64::NAN } else { r.metric(NC_EFFECTIVE) };
     Setup::number_of(r, known)
 }
 

@@ -27,10 +27,7 @@ fn fails(r: &Record) -> bool {
 /// Run-out after 2.5 s and at the end.
 fn runout(r: &Record) -> String {
     let of = |metric| fixed(1).unit(" m").text(r.metric(metric));
-    match fails(r) {
-        true => format!("{}, {}", of(RUNOUT_2_5S), of(RUNOUT_END)),
-        false => "stands".to_owned(),
-    }
+    if fails(r) { format!("{}, {}", of(RUNOUT_2_5S), of(RUNOUT_END)) } else { "stands".to_owned() }
 }
 
 /// Energy not accounted for, over the fallen, of a slope that has failed.

@@ -230,10 +230,7 @@ impl Ladder {
             claim: claims(&Setup::of_record(last).ok()?),
             about: about.trim_end().to_owned(),
             order: fit_order(&points).map_or(f64::NAN, |o| o.order),
-            worst_ratio: match errors.iter().any(|e| e.is_nan()) {
-                true => f64::NAN,
-                false => ratios.fold(0.0, f64::max),
-            },
+            worst_ratio: if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(0.0, f64::max) },
         })
     }
 }

@@ -79,10 +79,7 @@ impl Setup<Stability> {
 
     /// The factor of limit analysis; NaN of another angle than 45°.
     fn limit(&self) -> f64 {
-        match self.face_angle == 45.0 {
-            true => self.factor(STABILITY.0),
-            false => f64::NAN,
-        }
+        if self.face_angle == 45.0 { self.factor(STABILITY.0) } else { f64::NAN }
     }
 
     /// The factor to try next: the largest, then the middle of the bracket.
@@ -99,10 +96,7 @@ impl Setup<Stability> {
 
     /// Time (s) between two looks: of equilibrium a step.
     fn look(&self) -> f64 {
-        match self.is_implicit() {
-            true => 1.0 / f64::from(self.load_steps),
-            false => LOOK,
-        }
+        if self.is_implicit() { 1.0 / f64::from(self.load_steps) } else { LOOK }
     }
 
     /// The metrics of the trials of a ground of this mass (kg/m).
@@ -172,10 +166,7 @@ impl Problem<2> for Trials {
     type Seen = Seen;
 
     fn new(setup: Setup<Stability>) -> Result<Self, Error> {
-        setup.forbid(match setup.is_implicit() {
-            true => &["cfl", "wall"],
-            false => &["load_steps", "tolerance"],
-        })?;
+        setup.forbid(if setup.is_implicit() { &["cfl", "wall"] } else { &["load_steps", "tolerance"] })?;
         let strain = setup.density * GRAVITY * setup.height / setup.young_modulus;
         let quotient = "density g height / young_modulus";
         let why = "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
@@ -216,10 +207,7 @@ impl Problem<2> for Trials {
         let ground = match seen.ground.take() {
             Some(body) => body,
             None => {
-                phase.steps(match is_static {
-                    true => self.setup.load_steps as u64,
-                    false => self.steps(STAGE),
-                })?;
+                phase.steps(if is_static { self.setup.load_steps as u64 } else { self.steps(STAGE) })?;
                 seen.rest = places(phase.run.as_ref());
                 phase.run.body()?
             }
@@ -240,10 +228,7 @@ impl Problem<2> for Trials {
     }
 
     fn progress(&self, seen: &Seen, _: &Phase<2>) -> f64 {
-        match self.setup.is_known(seen) {
-            true => 1.0,
-            false => seen.trials.len() as f64 / f64::from(self.setup.trials),
-        }
+        if self.setup.is_known(seen) { 1.0 } else { seen.trials.len() as f64 / f64::from(self.setup.trials) }
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 2>) -> Columns<'a, 2> {

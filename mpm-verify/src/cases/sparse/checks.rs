@@ -47,10 +47,7 @@ impl Cloud<'_> {
         // E/ρ is 1 m²/s².
         let speed = (0.5 / (1.0 + self.poisson_ratio)).sqrt();
         let driven = FREQUENCY / (number * speed);
-        match self.is_static() {
-            true => of_cells,
-            false => of_cells / (1.0 - driven * driven).abs(),
-        }
+        if self.is_static() { of_cells } else { of_cells / (1.0 - driven * driven).abs() }
     }
 
     fn about(&self, name: &str) -> String {

@@ -131,10 +131,7 @@ impl Analysis for Body {
     }
 
     fn row(&self, _: usize, found: &Found) -> Row {
-        let [displacement, pressure, checkerboard] = match self.fitted {
-            true => found.errors,
-            false => [0.0; 3],
-        };
+        let [displacement, pressure, checkerboard] = if self.fitted { found.errors } else { [0.0; 3] };
         row! {
             "h (m)": self.setup.h,
             "inf_sup (-)": found.inf_sup,

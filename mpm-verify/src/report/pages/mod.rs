@@ -59,10 +59,7 @@ fn in_repository(name: &str, file: &str, commit: &str) -> Text {
 
 /// Where a run stands on the page of its case.
 fn anchor(record: &Record) -> String {
-    let plain = |c: char| match c.is_ascii_alphanumeric() || ".=_".contains(c) {
-        true => c,
-        false => '-',
-    };
+    let plain = |c: char| if c.is_ascii_alphanumeric() || ".=_".contains(c) { c } else { '-' };
     let name: String = words::name(record).chars().map(plain).collect();
     format!("run-{name}")
 }
