@@ -135,8 +135,7 @@ impl Finding {
             (Some(true), Kind::KnownLimit) => Outcome::WrongAsKnown,
             (Some(true), _) => Outcome::Right,
         };
-        let too_wide = self.too_wide();
-        let untold = too_wide.filter(|_| outcome != Outcome::Failed && kind != Kind::Drift);
+        let untold = self.too_wide().filter(|_| outcome != Outcome::Failed && kind != Kind::Drift);
         Verdict {
             check: check.to_owned(),
             kind,
@@ -144,10 +143,7 @@ impl Finding {
             value: self.value,
             reference: self.reference,
             tolerance: self.tolerance,
-            outcome: match untold {
-                Some(_) => Outcome::NotJudged,
-                None => outcome,
-            },
+            outcome: if untold.is_some() { Outcome::NotJudged } else { outcome },
             source: untold.unwrap_or(self.source),
         }
     }

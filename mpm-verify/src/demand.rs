@@ -154,10 +154,7 @@ impl<P: ParameterSet> Demand<P> {
         let why = self.why.as_ref().map_or_else(|| why.to_owned(), |why| why(run));
         let value = (self.quantity.value)(run);
         let found = self.bound.finding(name.to_owned(), value, run, why);
-        Some(match &self.scale {
-            Some(scale) => found.of_scale(scale(run)),
-            None => found,
-        })
+        Some(self.scale.iter().fold(found, |found, scale| found.of_scale(scale(run))))
     }
 }
 
@@ -359,10 +356,7 @@ impl<P: ParameterSet> CheckOf<P> {
     }
 
     fn scaled(&self, found: Finding, run: &Run<P>) -> Finding {
-        match &self.scale {
-            Some(scale) => found.of_scale(scale(run)),
-            None => found,
-        }
+        self.scale.iter().fold(found, |found, scale| found.of_scale(scale(run)))
     }
 
     /// The runs that pass `when`.
