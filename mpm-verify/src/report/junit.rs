@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use super::words::{demand, kind, outcome};
-use crate::record::Failure;
 use crate::score::Scores;
 use crate::score::gate::{Gate, INAPPLICABLE};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
@@ -62,7 +61,7 @@ fn of_run(record: &Record) -> Vec<TestCase> {
     }
     let timed = |(k, verdict): (usize, &Verdict)| {
         let status = match record.error.as_ref().filter(|_| record.broke_down()) {
-            Some(failure) if verdict.failed() => broke_down(failure),
+            Some(e) if verdict.failed() => told(NonSuccessKind::Error, &e.kind, &e.message),
             _ => status(verdict),
         };
         let mut test = test(&class, name(verdict), status);
@@ -95,7 +94,11 @@ fn status(verdict: &Verdict) -> TestCaseStatus {
 }
 
 fn failure(of: &str, why: &str) -> TestCaseStatus {
-    let mut status = TestCaseStatus::non_success(NonSuccessKind::Failure);
+    told(NonSuccessKind::Failure, of, why)
+}
+
+fn told(how: NonSuccessKind, of: &str, why: &str) -> TestCaseStatus {
+    let mut status = TestCaseStatus::non_success(how);
     status.set_type(of).set_message(why);
     status
 }
@@ -104,12 +107,6 @@ fn test(class: &str, name: String, status: TestCaseStatus) -> TestCase {
     let mut test = TestCase::new(name, status);
     test.set_classname(class);
     test
-}
-
-fn broke_down(failure: &Failure) -> TestCaseStatus {
-    let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);
-    status.set_type(&*failure.kind).set_message(&*failure.message);
-    status
 }
 
 #[cfg(test)]

@@ -119,10 +119,7 @@ impl Problem {
     /// A row of a run, with how many times the cost of `other` it has.
     fn row(&self, r: &Record, other: Option<&Record>) -> Vec<String> {
         let number = |name| r.value(name);
-        let name = match r.scheme().rule() {
-            Some(_) => r.solver.as_str(),
-            None => "explicit",
-        };
+        let name = if r.scheme().rule().is_some() { &*r.solver } else { "explicit" };
         let own = r.set.iter().filter(|s| !self.set.contains(&&***s));
         let run = [r.level.clone()].into_iter().chain(own.cloned());
         let iterations = match number("newton_iterations") {

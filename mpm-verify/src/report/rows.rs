@@ -1,6 +1,7 @@
 //! Kept results: a row per run, from a record and back.
 
 use crate::cases;
+use crate::check::Finding;
 use crate::error::Error;
 use crate::files::{read_rows, rows_text};
 use crate::night::Night;
@@ -149,15 +150,9 @@ impl Row {
             (self.failed, Kind::Truth, "", Outcome::Failed),
             (self.wanted_not_judged, Kind::Wanted, "", Outcome::NotJudged),
         ];
-        let verdict = |(_, kind, check, outcome): &(usize, Kind, &str, Outcome)| Verdict {
-            check: (*check).to_owned(),
-            kind: *kind,
-            metric: String::new(),
-            value: None,
-            reference: None,
-            tolerance: None,
-            outcome: *outcome,
-            source: String::new(),
+        let verdict = |&(_, kind, check, outcome): &(usize, Kind, &str, Outcome)| {
+            let blank = Finding::not_applicable("", "").verdict(check, kind);
+            Verdict { outcome, ..blank }
         };
         counts.iter().filter(|(count, ..)| *count > 0).map(verdict).collect()
     }

@@ -43,10 +43,7 @@ pub(super) fn drift(summary: &Summary) -> Sheet {
     let rows = summary.cases.iter().flat_map(|s| &s.records).flat_map(|record| {
         record.verdicts.iter().filter(|v| v.drifts()).map(move |v| {
             let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
-            let what = match difference {
-                Some(_) => v.metric.clone(),
-                None => format!("{}: {}", v.metric, v.source),
-            };
+            let what = if difference.is_some() { v.metric.clone() } else { format!("{}: {}", v.metric, v.source) };
             vec![
                 format!("{} {}", record.case, record.folder()),
                 what,
