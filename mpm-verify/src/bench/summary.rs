@@ -168,10 +168,8 @@ fn iterations(bench: &Measurements) -> String {
 }
 
 fn sizes(bench: &Measurements) -> String {
-    let memory = |m: &Measured| match m.memory {
-        Some(bytes) => format!("{:.0}", bytes as f64 / m.particles as f64),
-        None => "–".to_owned(),
-    };
+    let each = |m: &Measured, bytes| format!("{:.0}", bytes as f64 / m.particles as f64);
+    let memory = |m: &Measured| m.memory.map_or_else(|| "–".to_owned(), |bytes| each(m, bytes));
     table(
         "Sizes, one thread",
         bench.of_group("scaling"),

@@ -53,14 +53,8 @@ pub(crate) struct Run {
 impl Run {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let case = self.case;
-        let scheme = match self.scheme {
-            Some(scheme) => scheme,
-            None => self.scheme_of_parts()?,
-        };
-        let level = match &self.level {
-            Some(name) => find_level(case, name)?,
-            None => case.levels[0],
-        };
+        let scheme = self.scheme.map_or_else(|| self.scheme_of_parts(), Ok)?;
+        let level = self.level.as_deref().map_or(Ok(case.levels[0]), |name| find_level(case, name))?;
         let spec = RunSpec { scheme, level, set: self.set, perturbed: self.perturb };
         self.making.run(case, &spec)
     }

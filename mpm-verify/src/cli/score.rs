@@ -69,10 +69,7 @@ pub(crate) struct Export {
 impl Export {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let (case, foreign) = find_scored(&self.case)?;
-        let level = match &self.level {
-            Some(name) => find_level(case, name)?,
-            None => case.levels[0],
-        };
+        let level = self.level.as_deref().map_or(Ok(case.levels[0]), |name| find_level(case, name))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(BasisName::Bspline2), level, set: self.set, perturbed: false };
         let _held = hold(&self.out)?;
         let files = export(case, foreign, &spec, &self.out)?;

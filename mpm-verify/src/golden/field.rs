@@ -20,10 +20,7 @@ pub(super) fn files(root: &Path, case: &str) -> [PathBuf; 2] {
 
 /// The table of a run in `folder` that has the field.
 pub(super) fn table(view: &FieldView, folder: &Path) -> PathBuf {
-    match view.time {
-        Some(time) => snapshot_file(folder, time),
-        None => folder.join("particles.csv"),
-    }
+    view.time.map_or_else(|| folder.join("particles.csv"), |time| snapshot_file(folder, time))
 }
 
 /// The particles of a run in the window: number in seeding order, position and value.

@@ -171,10 +171,7 @@ impl Checkpoint {
             return Ok(None);
         }
         let bytes = files::read(&path, TABLE)?;
-        match Self::decode(&bytes, identity) {
-            Ok(checkpoint) => Ok(Some(checkpoint)),
-            Err(refusal) => Err(refusal.of(&path)),
-        }
+        Self::decode(&bytes, identity).map(Some).map_err(|refusal| refusal.of(&path))
     }
 
     fn decode(bytes: &[u8], identity: &Identity) -> Result<Self, Refusal> {

@@ -108,10 +108,8 @@ fn line_of(record: &StringRecord, bytes: &[u8]) -> u64 {
 /// The message for a cell that is no finite number.
 fn unread(line: u64, head: &str, cell: &str) -> String {
     let shown: String = cell.chars().take(SHOWN).collect();
-    let comma = match cell.replacen(',', ".", 1).parse::<f64>() {
-        Ok(_) => " with a decimal point",
-        Err(_) => "",
-    };
+    let has_comma = cell.replacen(',', ".", 1).parse::<f64>().is_ok();
+    let comma = if has_comma { " with a decimal point" } else { "" };
     format!("line {line}, column {head:?}: {shown:?}; allowed: finite numbers{comma}")
 }
 

@@ -157,9 +157,7 @@ impl Scored {
         }
         let gaps = (foreign.gaps)(&given)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
-        let discretisation = given.discretisation.clone();
-        let (spec, parameters) = (&given.spec, &given.parameters);
-        let mut record = Record::blank(case.name, spec, parameters, discretisation, 0);
+        let mut record = Record::blank(case.name, &given.spec, &given.parameters, given.discretisation.clone(), 0);
         let seconds = |of: Option<Positive>| of.map_or(f64::NAN, |s| s.0);
         let cost = &manifest.cost;
         (record.time.wall_s, record.time.cpu_s) = (seconds(cost.wall_s), seconds(cost.cpu_s));

@@ -109,10 +109,8 @@ fn described(head: &str, open: usize) -> Result<(Layout, Vec<Array>), String> {
 impl Array {
     fn of(element: &BytesStart<'_>, of_points: bool) -> Self {
         let text = |name: &str| attribute(element, name).unwrap_or_default();
-        let number = |name: &str, or: usize| match attribute(element, name) {
-            Some(text) => text.trim().parse().unwrap_or(usize::MAX),
-            None => or,
-        };
+        let whole = |text: String| text.trim().parse().unwrap_or(usize::MAX);
+        let number = |name: &str, or: usize| attribute(element, name).map_or(or, whole);
         let own = vtk::Array { name: text("Name"), of_points, components: number("NumberOfComponents", 1) };
         Self { own, kind: text("type"), format: text("format"), offset: number("offset", 0), text: String::new() }
     }
@@ -199,10 +197,7 @@ impl Layout {
         }
         let points = attribute(element, "NumberOfPoints").and_then(|n| n.trim().parse().ok());
         self.points = points.filter(|n| (1..=MOST).contains(n));
-        match self.points {
-            Some(_) => Ok(()),
-            None => Err(format!("NumberOfPoints: 1 to {MOST} are allowed")),
-        }
+        self.points.map(drop).ok_or_else(|| format!("NumberOfPoints: 1 to {MOST} are allowed"))
     }
 
     /// Takes bytes from what arrays may come to: a small file must not take much time or memory.

@@ -119,10 +119,8 @@ impl Gathered {
     /// The run is not among those gathered.
     pub fn folder(&self, record: &Record) -> Result<&Path, Error> {
         let place = format!("{}/{}", record.case, record.folder());
-        match self.folders.get(&place) {
-            Some(folder) => Ok(folder),
-            None => Err(Error::Input(format!("{place} is not among the runs read"))),
-        }
+        let absent = || Error::Input(format!("{place} is not among the runs read"));
+        self.folders.get(&place).map(PathBuf::as_path).ok_or_else(absent)
     }
 
     /// Forms every verdict by the checks as they are now; `drift` gives those on drift.
@@ -143,10 +141,8 @@ impl Gathered {
         case: &Case,
         drift: impl Fn(&Record) -> Result<Vec<Verdict>, Error> + Sync,
     ) -> Result<CaseStudy, Error> {
-        match self.studies.iter().find(|study| study.case == case.name) {
-            Some(study) => judged(study, &drift),
-            None => Err(Error::Input(format!("the folder has no runs of {}", case.name))),
-        }
+        let absent = || Error::Input(format!("the folder has no runs of {}", case.name));
+        judged(self.studies.iter().find(|study| study.case == case.name).ok_or_else(absent)?, &drift)
     }
 }
 

@@ -11,7 +11,7 @@ use crate::night::Night;
 pub const SCHEMA: u32 = 4;
 
 /// The runs of one case and what is said of them together.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CaseStudy {
     /// Case.
     pub case: String,
@@ -31,14 +31,7 @@ impl CaseStudy {
     /// Records of which nothing is said yet.
     #[must_use]
     pub fn new(case: &str, records: Vec<Record>) -> Self {
-        Self {
-            case: case.to_owned(),
-            records,
-            verdicts: Vec::new(),
-            convergence: Vec::new(),
-            night: None,
-            pictures: Vec::new(),
-        }
+        Self { case: case.to_owned(), records, ..Self::default() }
     }
 
     /// The program that made the runs; one made them all.
