@@ -150,10 +150,7 @@ pub(super) fn case() -> Case {
 
 /// Cost of the steps and of a factorisation.
 fn cost(spec: &RunSpec) -> f64 {
-    let steps = match spec.scheme.rule() {
-        Some(QuasiStatic) => 0.1,
-        _ => 1.0,
-    };
+    let steps = if spec.scheme.rule() == Some(QuasiStatic) { 0.1 } else { 1.0 };
     steps * 2.0 * (0.1 / spec.level.h).powi(3)
 }
 

@@ -202,10 +202,7 @@ impl Pressing {
 
     /// Force of the ground on the footing in the last step, upward (N/m).
     fn force_on_footing(&self, run: &dyn Simulation<2>) -> f64 {
-        let part = match self.barrier {
-            None => Part::Constraint(FOOTING),
-            Some(_) => Part::Contact(0),
-        };
+        let part = if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) };
         run.on(part).force[1]
     }
 }

@@ -305,10 +305,7 @@ impl<const D: usize> Problem<D> for Slide<D> {
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
-        let (rise, damping) = match seen.reduction {
-            None => (RISE, STAGE_DAMPING),
-            Some(_) => (0.0, self.setup.damping),
-        };
+        let (rise, damping) = if seen.reduction.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, self.setup.damping) };
         let scene = self.ground.scene(&self.setup, self.strength(seen)?, rise)?;
         let settings = self.setup.settings(self.ground.dt, damping)?;
         mpm_solvers::solver(self.setup.scheme, scene, settings)

@@ -236,10 +236,7 @@ impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
         setup.check_rule()?;
         let timing = scenario.timing()?;
         let frequency = K::FREQUENCY.map(|of| of(&setup.values)).filter(|_| moves(&setup.values));
-        let row = match frequency {
-            Some(omega) => TAU / omega / ROWS_PER_PERIOD / timing.dt,
-            None => timing.steps / ROWS,
-        };
+        let row = frequency.map_or(timing.steps / ROWS, |omega| TAU / omega / ROWS_PER_PERIOD / timing.dt);
         Ok(Self { scenario, timing, steps_per_row: (row as u64).clamp(1, MOST_STEPS), frequency })
     }
 

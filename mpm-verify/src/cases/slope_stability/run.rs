@@ -194,10 +194,7 @@ impl Problem<2> for Trials {
                 settings.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST)),
             );
         }
-        let (rise, damping) = match seen.factor {
-            None => (RISE, STAGE_DAMPING),
-            Some(_) => (0.0, TRIAL_DAMPING),
-        };
+        let (rise, damping) = if seen.factor.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, TRIAL_DAMPING) };
         let scene = ground.scene(setup, strength, rise)?;
         mpm_solvers::solver(setup.scheme, scene, setup.settings(ground.dt, damping)?)
     }

@@ -264,10 +264,7 @@ impl<const D: usize> Problem<D> for Stretching {
     }
 
     fn progress(&self, seen: &Observed, _: &Phase<D>) -> f64 {
-        match seen.stopped {
-            Some(_) => 1.0,
-            None => seen.rows as f64 / f64::from(self.setup.rows),
-        }
+        if seen.stopped.is_some() { 1.0 } else { seen.rows as f64 / f64::from(self.setup.rows) }
     }
 
     fn particles<'a>(&self, _: &Observed, mut columns: Columns<'a, D>) -> Columns<'a, D> {
