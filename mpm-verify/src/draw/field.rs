@@ -57,6 +57,14 @@ pub struct FieldFigure {
     pub window: Option<((f64, f64), (f64, f64))>,
 }
 
+impl FieldFigure {
+    /// One panel, by label and range of the colour scale; all of it is shown.
+    #[must_use]
+    pub fn single(panel: FieldPanel, label: String, range: (f64, f64)) -> Self {
+        Self { title: String::new(), panels: vec![panel], columns: 1, range, label, window: None }
+    }
+}
+
 /// Draws field panels as one PNG file, all with the same axes, equal scales and one colour bar.
 ///
 /// # Errors

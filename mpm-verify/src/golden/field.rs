@@ -96,19 +96,14 @@ pub(super) fn judge(
 
 fn draw(view: &FieldView, record: &Record, rows: &[[f64; 4]]) -> Result<RgbImage, Error> {
     let grid = &record.discretisation;
-    let figure = FieldFigure {
+    let panel = FieldPanel {
         title: String::new(),
-        panels: vec![FieldPanel {
-            title: String::new(),
-            points: rows.iter().map(|row| (row[1], row[2])).collect(),
-            values: rows.iter().map(|row| row[3]).collect(),
-            size: grid.h / f64::from(grid.ppc).powf(1.0 / grid.dim as f64),
-            outline: Vec::new(),
-        }],
-        columns: 1,
-        range: view.range,
-        label: view.label.to_owned(),
-        window: Some((view.window[0], view.window[1])),
+        points: rows.iter().map(|row| (row[1], row[2])).collect(),
+        values: rows.iter().map(|row| row[3]).collect(),
+        size: grid.h / f64::from(grid.ppc).powf(1.0 / grid.dim as f64),
+        outline: Vec::new(),
     };
+    let window = Some((view.window[0], view.window[1]));
+    let figure = FieldFigure { window, ..FieldFigure::single(panel, view.label.to_owned(), view.range) };
     small(WIDTH, |path| draw_fields(path, &figure))
 }

@@ -42,20 +42,15 @@ fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Opti
     let (Some(label), Some(range)) = (label, bulk(table.column(value))) else { return Ok(None) };
     let d = &record.discretisation;
     let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
-    let figure = FieldFigure {
-        title: String::new(),
-        panels: vec![FieldPanel {
-            title,
-            points: table.points("x", "y"),
-            values: table.column(value).to_vec(),
-            size: d.h / f64::from(d.ppc).sqrt(),
-            outline: Vec::new(),
-        }],
-        columns: 1,
-        range,
-        label: label.replace('_', " "),
-        window: view.map(|view| view.window.into()),
+    let panel = FieldPanel {
+        title,
+        points: table.points("x", "y"),
+        values: table.column(value).to_vec(),
+        size: d.h / f64::from(d.ppc).sqrt(),
+        outline: Vec::new(),
     };
+    let window = view.map(|view| view.window.into());
+    let figure = FieldFigure { window, ..FieldFigure::single(panel, label.replace('_', " "), range) };
     let file = format!("{}/particles.png", record.case);
     draw_fields(&out.join(&file), &figure)?;
     let caption = format!("{}: particles at the end.", record.folder());
