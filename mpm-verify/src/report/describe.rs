@@ -233,7 +233,7 @@ pub fn failures(summary: &Summary) -> String {
         let _ = writeln!(t, "{} {run}", study.case);
         t += &verdict_line(verdict);
     }
-    for record in summary.cases.iter().flat_map(|c| &c.records) {
+    for record in summary.records() {
         let drifting: Vec<&Verdict> = record.verdicts.iter().filter(|v| v.drifts()).collect();
         let worst = drifting.iter().max_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
         let name = format!("{} {}", record.case, record.folder());
@@ -281,7 +281,7 @@ pub fn verification_line(summary: &Summary) -> String {
 /// Findings of a verification, as JSON: its counts, and each run that did not end well.
 #[must_use]
 pub fn verification_json(summary: &Summary) -> Value {
-    let failed = summary.cases.iter().flat_map(|s| &s.records).filter(|r| exit_code(r) as u8 != 0);
+    let failed = summary.records().filter(|r| exit_code(r) as u8 != 0);
     let failed = failed.map(|r| json!({"case": r.case, "run": r.folder(), "verdict": sentence(r)}));
     json!({
         "tier": summary.tier,

@@ -156,7 +156,7 @@ fn changes<T: Copy + PartialEq>(old: BTreeMap<String, T>, new: BTreeMap<String, 
 
 fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
     let mut numbers = BTreeMap::new();
-    for record in summary.cases.iter().flat_map(|c| &c.records) {
+    for record in summary.records() {
         let run = format!("{} {}", record.case, record.folder());
         for (name, m) in &record.metrics {
             numbers.insert(format!("{run} {name} ({})", m.unit), m.value);

@@ -12,7 +12,7 @@ use crate::metric::Metric;
 pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), Error> {
     let mut document = Document::new(format!("Verification, tier {}", summary.tier));
     document.paragraph(lines(&summary.counts.to_string(), 4));
-    let panels = map::panels(runs(summary), speed);
+    let panels = map::panels(summary.records(), speed);
     if !panels.is_empty() {
         document.section("", "Map");
         let symbols = map::legend().map(|[symbol, text, _]| format!("{symbol} {text}"));
@@ -44,10 +44,6 @@ fn lines(text: &str, most: usize) -> Text {
     text.lines().take(most).map(Text::from).reduce(Text::then_below).unwrap_or_default()
 }
 
-fn runs(summary: &Summary) -> impl Iterator<Item = &Record> {
-    summary.cases.iter().flat_map(|study| &study.records)
-}
-
 fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sheet) -> Result<(), Error> {
     if !speed.is_empty() {
         document.section("", "Speed against error");
@@ -61,7 +57,7 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
     document.table("", programs.clone());
     failures(document, summary);
     for basis in criteria::BASES {
-        let (table, _) = criteria::remedies(basis).fill(runs(summary));
+        let (table, _) = criteria::remedies(basis).fill(summary.records());
         if !table.rows.is_empty() {
             document.section("", format!("Remedies against criteria, {basis}"));
             document.table("", table);

@@ -40,7 +40,7 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
 
 /// Differences from the goldens, run by run.
 pub(super) fn drift(summary: &Summary) -> Sheet {
-    let rows = summary.cases.iter().flat_map(|s| &s.records).flat_map(|record| {
+    let rows = summary.records().flat_map(|record| {
         record.verdicts.iter().filter(|v| v.drifts()).map(move |v| {
             let difference = v.value.zip(v.reference).map(|(now, golden)| now - golden);
             let what = if difference.is_some() { v.metric.clone() } else { format!("{}: {}", v.metric, v.source) };

@@ -160,6 +160,11 @@ impl Summary {
         c.failed + c.bookkeeping_failed + c.regression_failed
     }
 
+    /// The runs of all cases.
+    pub fn records(&self) -> impl Iterator<Item = &Record> {
+        self.cases.iter().flat_map(|study| &study.records)
+    }
+
     /// All verdicts, each with the run it is about (none for those on runs together).
     pub fn verdicts(&self) -> impl Iterator<Item = (&CaseStudy, Option<&Record>, &Verdict)> {
         self.cases.iter().flat_map(|study| {
@@ -171,7 +176,7 @@ impl Summary {
 
 fn count(summary: &Summary) -> Counts {
     let mut counts = Counts::default();
-    for record in summary.cases.iter().flat_map(|study| &study.records) {
+    for record in summary.records() {
         counts.runs += 1;
         counts.broke_down += usize::from(record.broke_down());
         counts.broke_down_as_known += usize::from(broke_as_known(record));

@@ -47,7 +47,7 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     legend(&mut page);
     failed(&mut page, summary);
     page.section("programs", "Programs");
-    let machines = summary.cases.iter().flat_map(|s| &s.records).map(|r| {
+    let machines = summary.records().map(|r| {
         let m = &r.machine;
         format!("{} {}, {} cores, threads per run: {}", m.os, m.arch, m.cores, m.threads)
     });
@@ -69,7 +69,7 @@ fn schemes(page: &mut Document) {
 
 fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
     page.section("map", "Map: result of every scheme in every case");
-    let panels = map::panels(summary.cases.iter().flat_map(|s| &s.records), speed);
+    let panels = map::panels(summary.records(), speed);
     if panels.is_empty() {
         return page.paragraph("No runs.");
     }
