@@ -224,6 +224,11 @@ pub(crate) const CELLS: Label = ("h", |r| format!("{} m", r.level.trim_start_mat
 /// The basis of a row.
 pub(crate) const BASIS: Label = ("", |r| r.basis().to_string());
 
+/// The value of a parameter as it was set, or its default.
+pub(crate) fn word(r: &Record, name: &str, default: &str) -> String {
+    r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('=')).unwrap_or(default).to_owned()
+}
+
 /// Whether a run transfers by FLIP.
 pub(crate) fn is_flip(r: &Record) -> bool {
     r.transfer() == TransferName::Flip

@@ -178,6 +178,11 @@ impl<P> Run<'_, P> {
         self.record.metric(of)
     }
 
+    /// Whether a metric was measured.
+    pub(crate) fn has(&self, metric: Metric) -> bool {
+        self.metric(metric).is_finite()
+    }
+
     /// Time step (s).
     pub(crate) fn dt(&self) -> f64 {
         self.record.discretisation.dt

@@ -204,9 +204,6 @@ fn tables() -> Vec<ResultTable> {
     fn or_dash(changed: &[&str]) -> String {
         if changed.is_empty() { "–".to_owned() } else { changed.join(", ") }
     }
-    fn word(r: &Record, name: &str, default: &str) -> String {
-        r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('=')).unwrap_or(default).to_owned()
-    }
     const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));
     const LAW: Label = ("law", |r| word(r, "law", "hencky"));
     const CHANGED: Label = ("changed", |r| or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>()));

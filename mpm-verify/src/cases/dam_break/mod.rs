@@ -220,11 +220,6 @@ fn of_flow() -> ResultTable {
         .cpu()
 }
 
-/// The value of a parameter as it was set, or its default.
-fn word(r: &Record, name: &str, default: &str) -> String {
-    r.set.iter().find_map(|set| set.strip_prefix(name)?.strip_prefix('=')).unwrap_or(default).to_owned()
-}
-
 fn at_rest() -> ResultTable {
     /// ρ g H (Pa); on the gate ½ H times that.
     fn pressure(r: &Record) -> f64 {

@@ -132,10 +132,6 @@ impl Run<'_, Newton> {
     fn is_steady(&self) -> bool {
         !self.stands() && !self.is_whole() && self.load <= STEADY && self.basis() != Linear
     }
-
-    fn has(&self, metric: Metric) -> bool {
-        self.metric(metric).is_finite()
-    }
 }
 
 fn checks() -> Vec<Check> {

@@ -102,8 +102,7 @@ fn plan() -> Plan {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const LAYOUTS: Label =
-        ("layout", |r| r.set.iter().find_map(|set| set.strip_prefix("layout=")).unwrap_or("random").to_owned());
+    const LAYOUTS: Label = ("layout", |r| word(r, "layout", "random"));
     const NUMBER: Label = ("a cell", |r| format!("{}", per_direction(r).powi(2)));
     fn per_direction(r: &Record) -> f64 {
         Setup::<Sparse>::number_of(r, |c| c.ppc_per_direction as f64)

@@ -133,10 +133,6 @@ impl Run<'_, Stretch> {
     fn jumps_in_the_plane(&self) -> bool {
         self.record.discretisation.dim > 1 && !self.is_continuous()
     }
-
-    fn has(&self, metric: Metric) -> bool {
-        self.metric(metric).is_finite()
-    }
 }
 
 fn checks() -> Vec<Check> {
