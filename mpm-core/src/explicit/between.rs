@@ -21,10 +21,12 @@ use nalgebra::{SMatrix, SVector};
 use std::array::from_fn;
 
 /// Share of a way's square by which it may be longer than the shortest one, and most moves until it is found.
-const NEAREST: f64 = 1e-6;
+const NEAREST: f64 = 1e-12;
 const MOVES: usize = 100;
 /// Points of which one of least norm is made, at most.
 const MOST: usize = 4;
+/// Share of the squares of differences by which points on a line are kept apart.
+const LEAST: f64 = 1e-12;
 
 /// A node that the particles of two fields see.
 #[derive(Debug, Clone, Copy)]
@@ -208,6 +210,7 @@ impl<const D: usize> Touching<D> {
 fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, usize)]; 2]) -> Option<SVector<f64, D>> {
     let at = |(_, k): &(usize, usize)| SVector::from(positions[*k]);
     let mut way = at(to.first()?) - at(from.first()?);
+    let begun = way.norm_squared();
     // Differences with their shares in the way: at most one more than there are dimensions.
     let mut corral = [(way, 1.0); MOST];
     let mut count = 1;
@@ -217,11 +220,8 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
             seen.iter().min_by(|a, b| along(a).total_cmp(&along(b))).map(at)
         };
         let next = least(to, 1.0)? - least(from, -1.0)?;
-        if way.norm_squared() - way.dot(&next) <= NEAREST * way.norm_squared() {
-            return Some(way);
-        }
-        if count > D {
-            return None;
+        if way.norm_squared() - way.dot(&next) <= NEAREST * way.norm_squared() || count > D {
+            break;
         }
         corral[count] = (next, 0.0);
         count += 1;
@@ -229,11 +229,11 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
         loop {
             let (base, others) = (corral[0].0, &corral[1..count]);
             let mut columns = SMatrix::<f64, D, D>::zeros();
-            let mut gram = SMatrix::<f64, D, D>::identity();
             others.iter().enumerate().for_each(|(k, (point, _))| columns.set_column(k, &(point - base)));
-            gram.fill_diagonal(0.0);
-            gram += columns.transpose() * columns;
-            (others.len()..D).for_each(|k| gram[(k, k)] = 1.0);
+            let mut gram = columns.transpose() * columns;
+            // Points on a line have no shares of their own: the least ones are as good.
+            let least = LEAST * gram.trace();
+            (0..D).for_each(|k| gram[(k, k)] += if k < others.len() { least } else { 1.0 });
             let shares = gram.cholesky()?.solve(&-(columns.transpose() * base));
             let wanted = |k: usize| if k == 0 { 1.0 - shares.sum() } else { shares[k - 1] };
             let reach = |k: usize| if wanted(k) < 0.0 { corral[k].1 / (corral[k].1 - wanted(k)) } else { 1.0 };
@@ -247,9 +247,14 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
             count -= 1;
             corral.swap(out, count);
         }
-        way = corral[..count].iter().fold(SVector::zeros(), |sum, (point, share)| sum + point * *share);
+        let shorter = corral[..count].iter().fold(SVector::zeros(), |sum, (point, share)| sum + point * *share);
+        if shorter.norm_squared() >= way.norm_squared() {
+            break;
+        }
+        way = shorter;
     }
-    None
+    // Of hulls that overlap, nothing is left but rounding.
+    (way.norm_squared() > NEAREST * begun).then_some(way)
 }
 
 /// `visit(place in the list, gradient of the function (1/m))` for every listed node that a particle at `x` (m) sees.

@@ -29,6 +29,11 @@ fn without(p: Particles<2>, out: impl Fn(&[f64; 2]) -> bool) -> Particles<2> {
     Particles::new(places, p.reference_volume[0], DENSITY, p.half_size).unwrap()
 }
 
+/// Tells a result and what is exact, for `docs/bodies.md`.
+fn told(what: &str, found: f64, exact: f64) {
+    println!("{what}: {found:.4e}, exact {exact:.4e}");
+}
+
 /// Positions by identity.
 fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
     let p = run.particles();
@@ -214,6 +219,7 @@ fn a_wave_passes_from_one_material_to_another_as_its_impedance_says() {
         solver.step().unwrap();
     }
     let [back, through] = [0, 1].map(|body| energy(&solver, body) / whole);
+    told("energy that a joint sends back", back, reflected * reflected);
     // Sixty cells a pulse: the scheme errs by (2π h/λ)² / 24 a wave length of some 3 m, less than a thousandth.
     assert!((back - reflected * reflected).abs() < 2e-3, "{back} of {}", reflected * reflected);
     assert!((through - (1.0 - reflected * reflected)).abs() < 2e-3, "{through}");
@@ -251,6 +257,7 @@ fn a_layered_column_settles_as_its_moduli_say() {
     }
     // The kink at the joint lies in one cell: first order there, h/2 of the jump in strain, over a twentieth of the column.
     let jump = w2 / m1 - w2 / m2;
+    told("rms error of layers that settle (m)", squares.sqrt(), 0.0);
     assert!(squares.sqrt() < 0.5 * h * jump);
     let top = p.position.iter().zip(&p.reference).map(|(x, from)| x[1] - from[1]).fold(0.0, f64::min);
     assert!((top - settled(2.0)).abs() < 0.5 * h * jump, "{top}");
@@ -285,6 +292,7 @@ fn a_block_slides_above_the_angle_of_friction_only() {
             *at = [momentum(&solver)[0] / mass, solver.on(Part::Body(1)).impulse[1] / mass];
         }
         let exact = f64::max(0.0, theta.sin() - friction * theta.cos());
+        told(&format!("acceleration with friction {friction} (g)"), (at[1][0] - at[0][0]) / 3.0, exact);
         assert!(((at[1][0] - at[0][0]) / 3.0 - exact).abs() < 0.01, "{friction}");
         assert!(((at[1][1] - at[0][1]) / 3.0 - theta.cos()).abs() < 0.01);
     }
@@ -310,6 +318,7 @@ fn discs_that_pass_do_not_feel_each_other() {
         }
         let after = solver.totals();
         let lost = 1.0 - after.kinetic_energy / whole;
+        told("energy lost by discs that pass", lost, 0.0);
         assert!(lost.abs() < 1e-12, "{offset}: lost {lost}");
         assert_eq!(solver.on(Part::Body(0)).impulse, [0.0; 3]);
     }
@@ -389,6 +398,7 @@ fn water_stands_on_an_elastic_floor() {
     let top = bodies.each[0].range().filter(|k| p.reference[*k][1] > 0.45);
     let mean: Vec<f64> = top.map(|k| p.reference[k][1] - p.position[k][1]).collect();
     let mean = mean.iter().sum::<f64>() / mean.len() as f64;
+    told("floor below water gives way by (m)", mean, exact);
     assert!((mean / exact - 1.0).abs() < 0.1, "{mean} of {exact}");
 }
 
@@ -450,6 +460,9 @@ fn two_discs_press_each_other_as_hertz_says() {
     }
     let found = 2.0 * (second / sum).sqrt();
     let greatest = 2.0 * force / (PI * width);
+    told("force of two discs (N/m)", mean, force);
+    told("half width of their contact (m)", found, width);
+    told("greatest pressure (Pa)", most, greatest);
     // What is pressed is in balance; Hertz's half-spaces err by the order of a/R, and the width lies in eight cells.
     assert!((mean / force - 1.0).abs() < 0.01, "{mean} of {force}");
     assert!((found / width - 1.0).abs() < width / radius, "{found} of {width}");

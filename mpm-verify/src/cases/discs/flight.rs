@@ -1,8 +1,10 @@
 //! Duration of the free flight, until a function sees both discs.
 
-use super::Discs;
+use super::run::{CENTRES, RADIUS};
+use super::{Contact, Discs};
 use crate::exact::lattice::nodes;
 use crate::setup::Setup;
+use std::f64::consts::SQRT_2;
 
 /// Way in cells, along each axis, between two looks.
 const LOOK: f64 = 0.005;
@@ -19,8 +21,15 @@ fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
     ends.collect()
 }
 
-/// The last look (s) before a node sees both discs, if one does within `duration` (s).
+/// The last look (s) before a node sees both discs, or the time (s) at which bodies can touch first, if that is within
+/// `duration` (s).
 pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
+    if setup.contact == Contact::Bodies {
+        // Domains of particles end half their distance beyond the rims, at most.
+        let way = (2.0 * RADIUS + setup.pitch()).powi(2) - setup.offset.powi(2);
+        let gap = (CENTRES[1][0] - CENTRES[0][0]) * SQRT_2 - way.max(0.0).sqrt();
+        return Some(gap / (2.0 * SQRT_2 * setup.speed)).filter(|time| way >= 0.0 && *time <= duration);
+    }
     let (h, basis) = (setup.h, setup.basis());
     let half_size = 0.5 / setup.ppc_per_direction as f64;
     let places = setup.seed();
@@ -50,7 +59,6 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::run::RADIUS;
     use super::*;
     use crate::exact::lattice::support;
     use crate::parameter::{ParameterSet, Parameters};

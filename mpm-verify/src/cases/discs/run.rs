@@ -251,7 +251,19 @@ impl Problem<2> for Collision {
             *velocity = if k < self.half { [speed; 2] } else { [-speed; 2] };
         }
         let law = NeoHookean::new(self.setup.young_modulus, self.setup.poisson_ratio)?;
-        let scene = Scene::new(grid, Bodies::new(law, particles)?);
+        let bodies = match self.setup.contact {
+            Contact::Grid => Bodies::new(law, particles)?,
+            Contact::Bodies => {
+                let disc = |first: usize| {
+                    let mut particles = particles.clone();
+                    particles.permute(&(first as u32..(first + self.half) as u32).collect::<Vec<_>>());
+                    particles.id = (0..self.half as u32).collect();
+                    particles
+                };
+                Bodies::new(law, disc(0))?.and(law, disc(self.half))?.sliding(0.0)?
+            }
+        };
+        let scene = Scene::new(grid, bodies);
         self.setup.moving(scene, self.setup.timing().0, 0.0)
     }
 

@@ -134,7 +134,7 @@ fn what_is_wrong_is_named_with_line_and_key() {
         ("duration_s = 1.0", "duration_s = inf", &["duration_s", "inf"]),
         ("cfl = 0.3", "time_step_s = 0.3", &["1 s in steps of 0.3 s", "whole steps"]),
         ("[30, 0], [30, 1]", "[30, 0, 7], [30, 1]", &["line 15", "a corner has 3 numbers", "2 axes"]),
-        ("name = \"back\"", "name = \"base\"", &["line 30", "a second support or contact \"base\""]),
+        ("name = \"back\"", "name = \"base\"", &["line 30", "a second support, contact or body \"base\""]),
         ("end = \"lo\", kind = \"roller\"", "end = \"hi\", kind = \"roller\"", &["line 30", "a wall at an end"]),
         (
             BACK,

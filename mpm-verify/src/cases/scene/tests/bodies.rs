@@ -69,7 +69,6 @@ fn what_bodies_cannot_be_is_named_with_its_line() {
         ("[3, 0]\nfriction", "[3, 0, 0]\nfriction", &["velocity_m_s has 3 numbers"]),
         (scheme, "quasi-static-gimp-none\"\ntime_step_s = 0.01", &["slide need an explicit scheme"]),
         (scheme, "gimp-none-flip\"\ncfl = 0.3\n#", &["nothing is wrong"]),
-        ("\"walls\", \"wall-open\"", "\"periodic\", \"wall-open\"", &["periodic"]),
         ("particles_per_direction = 2\n", "", &["no particles_per_direction"]),
         ("particles_per_direction = 2", "particles_per_direction = 2\nremedy = false", &["nothing is wrong"]),
     ] {
