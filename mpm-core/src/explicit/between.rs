@@ -71,7 +71,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
 }
 
 impl<const D: usize> Touching<D> {
-    /// On a lattice of so many nodes.
+    /// Room on a lattice of this many nodes.
     pub(super) fn new(nodes: usize) -> Self {
         let (place, begins) = (vec![0; nodes], vec![false; nodes]);
         Self { place, begins, shared: Vec::new(), near: [Vec::new(), Vec::new()], seen: [Vec::new(), Vec::new()] }
@@ -253,7 +253,7 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
         }
         way = shorter;
     }
-    // Of hulls that overlap, nothing is left but rounding.
+    // Hulls that overlap leave nothing but rounding.
     (way.norm_squared() > NEAREST * begun).then_some(way)
 }
 

@@ -86,7 +86,7 @@ struct NodeSums {
     momentum: Node,
 }
 
-/// What moves as one: the nodes that some bodies share.
+/// A velocity field: the nodes that some bodies share, by which they move as one.
 struct VelocityField<T> {
     /// Its bodies, by place in the list, and their slabs.
     bodies: Vec<usize>,
@@ -122,13 +122,13 @@ pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     force_mean: Vec<f64>,
     /// Between G2P and the law.
     deformation: Deformation<D>,
-    /// What follows G2P, of every body.
+    /// The step of every body after G2P.
     second_half: Vec<SecondHalf<D>>,
     chunk_sums: Vec<ChunkSums>,
     node_sums: Vec<NodeSums>,
     /// Largest distance (m) that a particle can have moved since the particles were sorted.
     drift: f64,
-    /// Of every body, least density of the undeformed material (kg/m³), and greatest modulus ρ₀ c² of waves (Pa).
+    /// Least density of the undeformed material (kg/m³) and greatest modulus ρ₀ c² of waves (Pa), body by body.
     density: Vec<f64>,
     wave_modulus: Vec<f64>,
     ledger: Ledger,

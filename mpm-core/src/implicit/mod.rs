@@ -162,8 +162,15 @@ impl<const D: usize> Simulation<D> for Solver<D> {
             Field::MeanStress => self.force_stress().iter().map(|s| s.mean()).collect(),
             Field::AveragedMeanStress => {
                 let mean = self.field(Field::MeanStress);
-                let (elements, average) = self.averaging();
-                average.project(&elements, &mean)
+                let (elements, _) = self.averaging();
+                let Bodies { particles, each } = &self.scene.bodies;
+                let of_body = |body: &Body| {
+                    let own = |p| if body.range().contains(&p) { particles.volume[p] } else { 0.0 };
+                    let volume: Vec<f64> = (0..particles.len()).map(own).collect();
+                    let average = Average::new(&elements, self.functions.len(), &volume, false);
+                    average.project(&elements, &mean)[body.range()].to_vec()
+                };
+                each.iter().flat_map(of_body).collect()
             }
         }
     }
@@ -251,7 +258,7 @@ impl<const D: usize> Solver<D> {
         let (bodies, mu) = (&self.scene.bodies, self.moduli.mu);
         let flows = !self.advance.is_empty() && bodies.plastic_strain().iter().any(|strain| *strain != 0.0);
         if !flows {
-            // Of several bodies, each has the share that is its own.
+            // Each of several bodies has the share that is its own.
             let several = bodies.each.iter().filter(|_| bodies.each.len() > 1);
             let share = |body: &Body| (start::moduli_of(body.law.as_ref(), dt).mu / mu).clamp(FLOWS, 1.0);
             return several.flat_map(|body| vec![share(body); body.range().len()]).collect();

@@ -3,12 +3,14 @@
 use crate::scenes::{DENSITY, block, law, open_grid, remedies, swirl, with_threads};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Fbar, Form};
-use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
+use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Hencky, NeoHookean, NewtonianFluid};
 use mpm_core::memory::Memory;
 use mpm_core::stage::{BodyForce, End, Gravity, LocalDamping, Wall, WallKind, smooth_rise};
-use mpm_core::{Axis, Basis, Bodies, Error, Grid, Lattice, Law, Part, Particles, Scene, Side, Simulation, implicit};
+use mpm_core::{
+    Axis, Basis, Bodies, Error, Frame, Grid, Lattice, Law, Part, Particles, Scene, Side, Simulation, implicit,
+};
 use std::f64::consts::PI;
 
 const H: f64 = 0.5;
@@ -121,7 +123,7 @@ fn same_bits<const S: usize, B: Basis<S> + 'static, T: Transfer<2>>(transfer: &T
 #[test]
 fn several_bodies_have_the_same_bits_on_any_threads_and_after_a_restart() {
     for sliding in [false, true] {
-        same_bits::<3, Gimp, _>(&mpm_core::explicit::transfer::Flip::default(), sliding, Form::Consistent);
+        same_bits::<3, Gimp, _>(&Flip::default(), sliding, Form::Consistent);
         same_bits::<3, QuadraticBSpline, _>(&Apic, sliding, Form::Bbar);
         same_bits::<4, CubicBSpline, _>(&Xpic::new(3).unwrap(), sliding, Form::Rate);
         same_bits::<2, Linear, _>(&Musl::default(), sliding, Form::Recursive);
@@ -129,10 +131,33 @@ fn several_bodies_have_the_same_bits_on_any_threads_and_after_a_restart() {
 }
 
 #[test]
+fn several_bodies_move_the_same_seen_along_other_axes() {
+    let frame = Frame::along([(1, -1.0), (0, 1.0)]);
+    for sliding in [false, true] {
+        let run = |seen: bool| {
+            let (scene, mut settings) = three(Flip::default(), sliding);
+            settings.remedy = Box::new(Fbar::new(Form::Consistent));
+            let scene = if seen { scene.seen_from(&frame).unwrap() } else { scene };
+            let mut solver = Solver::<2, 3, QuadraticBSpline>::new(scene, settings).unwrap();
+            solver.advance(80).unwrap();
+            let touched = solver.on(Part::Body(2)).impulse;
+            (places(&solver), [touched[0], touched[1]])
+        };
+        let ((own, touch), (others, other_touch)) = (run(false), run(true));
+        for (x, seen) in own.iter().zip(others) {
+            let expected = frame.place(x);
+            assert!((seen[0] - expected[0]).abs() < 1e-10 && (seen[1] - expected[1]).abs() < 1e-10);
+        }
+        let expected = frame.vector(&touch, 1.0);
+        assert!((0..2).all(|a| (other_touch[a] - expected[a]).abs() < 1e-9), "{other_touch:?} of {expected:?}");
+    }
+}
+
+#[test]
 fn several_bodies_keep_momentum_and_lose_energy_to_contact_alone() {
     for sliding in [false, true] {
         for remedy in remedies::<2>() {
-            let (scene, mut settings) = three(mpm_core::explicit::transfer::Flip::default(), sliding);
+            let (scene, mut settings) = three(Flip::default(), sliding);
             settings.remedy = remedy;
             let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();
             let before = solver.totals();

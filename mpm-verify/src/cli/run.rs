@@ -4,6 +4,7 @@ use super::*;
 use crate::progress::{Teller, so_far};
 use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::error::one_line;
+use mpm_verify::files::{read_text, write_whole};
 use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
 use mpm_verify::report::{discard_report, single};
@@ -125,6 +126,9 @@ impl Making {
     }
 }
 
+/// Copy of a scene file beside its results.
+const AS_RUN: &str = "scene-as-run.toml";
+
 #[derive(Args)]
 pub(crate) struct Scene {
     /// Scene file in TOML: docs/reference/scene-files.md
@@ -142,7 +146,12 @@ impl Scene {
                 say(format!("{line}\n"))?;
             }
         }
-        self.making.run(&scene.case, &scene.spec)
+        let text = read_text(&self.file)?;
+        let code = self.making.run(&scene.case, &scene.spec)?;
+        if let Some(folder) = self.making.folder() {
+            write_whole(&folder.join(AS_RUN), text.as_bytes())?;
+        }
+        Ok(code)
     }
 }
 

@@ -296,6 +296,11 @@ fn drive(
     clock: &Clock,
     progress: &(dyn Fn(f64) + Sync),
 ) -> Result<Option<Failure>, Error> {
+    if let Some(journal) = journal.as_mut().filter(|_| job.work().steps == 0)
+        && let Some(snapshot) = job.snapshot()
+    {
+        write_snapshot(&journal.folder, &snapshot)?;
+    }
     while !job.finished() {
         if let Some(journal) = &mut journal {
             journal.keep(job, clock)?;

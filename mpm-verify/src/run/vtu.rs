@@ -15,13 +15,17 @@ use std::path::Path;
 
 /// Columns of positions.
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Ends of the names of a vector's components, and of a symmetric tensor's, in VTK's order.
+const VECTOR: [&str; 3] = ["_x", "_y", "_z"];
+const TENSOR: [&str; 6] = ["_xx", "_yy", "_zz", "_xy", "_yz", "_xz"];
 /// VTK's number of a vertex cell.
 const VERTEX: u8 = 1;
 /// Bytes that are compressed at a time.
 const BLOCK: usize = 1 << 20;
 
-/// Writes particles as vertices: the columns `x`, `y`, `z` (those that exist) are the points, all
-/// others are point data. A number beyond single precision becomes infinite.
+/// Writes particles as vertices: the columns `x`, `y`, `z` (those that exist) are the points, all others are point data:
+/// vectors and symmetric tensors whole, under their name, scalars with their unit. A number beyond single precision becomes
+/// infinite.
 ///
 /// # Errors
 /// The file can't be written.
@@ -66,8 +70,15 @@ fn grid(columns: &[Column]) -> io::Result<Vec<u8>> {
     cells += &array(("UInt8", "types", 1), &vec![VERTEX; n], &mut numbers)?;
     let mut fields = String::new();
     for c in columns.iter().filter(|c| !AXES.contains(&c.name)) {
-        let name = format!("{} ({})", c.name, c.unit);
-        fields += &array(("Float32", &name, 1), &singles(c.values.iter().copied()), &mut numbers)?;
+        let (name, parts) = match whole(columns, c, axes.iter().flatten().count()) {
+            Some((name, parts)) => (name.to_owned(), parts),
+            None => (format!("{} ({})", c.name, c.unit), vec![Some(c)]),
+        };
+        // The first component stands for all.
+        if parts.iter().flatten().next().is_some_and(|first| first.name == c.name) {
+            let values = (0..n).flat_map(|k| parts.iter().map(move |part| part.map_or(0.0, |c| c.values[k])));
+            fields += &array(("Float32", &name, parts.len()), &singles(values), &mut numbers)?;
+        }
     }
     let compressor = " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
     let head = format!(
@@ -77,6 +88,17 @@ fn grid(columns: &[Column]) -> io::Result<Vec<u8>> {
         begin("UnstructuredGrid", compressor)
     );
     Ok([head.as_bytes(), &numbers, b"\n </AppendedData>\n</VTKFile>"].concat())
+}
+
+/// Name and components of the vector or symmetric tensor that a column belongs to, on a grid with these `axes`; components
+/// that a plane or a line lacks are none. A vector has all of the axes, a tensor what a plane has.
+fn whole<'a>(columns: &'a [Column], own: &'a Column, axes: usize) -> Option<(&'a str, Vec<Option<&'a Column>>)> {
+    [(&VECTOR[..], axes), (&TENSOR, 4)].into_iter().find_map(|(ends, least)| {
+        let stem = ends.iter().find_map(|end| own.name.strip_suffix(end))?;
+        let of = |end: &&str| columns.iter().find(|c| c.unit == own.unit && c.name.strip_suffix(*end) == Some(stem));
+        let parts: Vec<_> = ends.iter().map(of).collect();
+        parts[..least].iter().all(Option::is_some).then_some((stem, parts))
+    })
 }
 
 fn singles(values: impl Iterator<Item = f64>) -> Vec<u8> {
@@ -196,6 +218,21 @@ mod tests {
         let found = arrays.iter().map(|(name, values)| (&**name, &**values));
         assert!(found.eq(expected), "{arrays:?}");
         assert!(document.ends_with(b"</VTKFile>"));
+    }
+
+    #[test]
+    fn vectors_and_tensors_are_whole_and_parts_of_them_scalars() {
+        let of =
+            |name: &'static str, value: f64| column(name, if name.contains("st") { "Pa" } else { "m" }, vec![value]);
+        let columns = [of("x", 0.0), of("y", 0.0), of("u_x", 1.0), of("u_y", 2.0), of("force_x", 3.0)];
+        let stress = ["xx", "yy", "zz", "xy"].map(|k| format!("stress_{k}").leak() as &'static str);
+        let tensor = stress.into_iter().zip([4.0, 5.0, 6.0, 7.0]).map(|(name, value)| of(name, value));
+        let lone = of("effective_stress_yy", 8.0);
+        let columns: Vec<Column> = columns.into_iter().chain(tensor).chain([lone]).collect();
+        let arrays = arrays(&grid(&columns).unwrap());
+        assert_eq!(arrays["u"], [1.0, 2.0, 0.0]);
+        assert_eq!(arrays["stress"], [4.0, 5.0, 6.0, 7.0, 0.0, 0.0]);
+        assert_eq!((&*arrays["force_x (m)"], &*arrays["effective_stress_yy (Pa)"]), (&[3.0][..], &[8.0][..]));
     }
 
     #[test]

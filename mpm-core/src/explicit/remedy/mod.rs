@@ -34,7 +34,7 @@ pub struct Deformation<const D: usize> {
 }
 
 impl<const D: usize> Deformation<D> {
-    /// Room for bodies of so many particles each.
+    /// Room for bodies with these numbers of particles.
     #[must_use]
     pub fn of(remedy: &dyn Remedy<D>, lengths: &[usize]) -> Self {
         let (n, eights) = (lengths.iter().sum(), lengths.iter().map(|n| blocks(*n)).sum());

@@ -1,11 +1,13 @@
 //! Duration of the free flight, until a function sees both discs.
 
-use super::run::{CENTRES, RADIUS};
 use super::{Contact, Discs};
 use crate::exact::lattice::nodes;
 use crate::setup::Setup;
 use std::f64::consts::SQRT_2;
 
+/// Radius and centres (m) of the discs.
+pub(super) const RADIUS: f64 = 0.2;
+pub(super) const CENTRES: [[f64; 2]; 2] = [[0.2, 0.2], [0.8, 0.8]];
 /// Way in cells, along each axis, between two looks.
 const LOOK: f64 = 0.005;
 

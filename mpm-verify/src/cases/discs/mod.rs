@@ -7,7 +7,8 @@ mod run;
 
 use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
-use run::{AT_SPEED, CENTRES, IN_CONTACT, RADIUS};
+use flight::{CENTRES, RADIUS};
+use run::{AT_SPEED, IN_CONTACT};
 
 use RuleName::{Midpoint, Newmark};
 use TransferName::{Apic, Flip, Musl, Xpic2};
@@ -166,8 +167,8 @@ fn plan() -> Plan {
         .runs(Pr, "h0.05", &both, "step_factor=100")
         .runs(Pr, "h0.05", &[plain(Gimp, Apic)], "offset=0.1")
         .runs(Pr, "h0.05", &explicit[1..], "offset=0.4")
-        .runs(Pr, "h0.05", &explicit, "contact=bodies offset=0.5")
-        .runs(Pr, "h0.05", &explicit[..1], "contact=bodies")
+        .runs(Pr, "h0.05", &explicit[1..], "contact=bodies offset=0.5 speed=0.1")
+        .runs(Pr, "h0.05", &explicit[..1], "contact=bodies speed=0.1")
         .runs(Pr, "h0.05", &[plain(Linear, Musl)], "offset=0.65")
         .runs(Nightly, "h0.05 h0.025", &all, "")
         .runs(Nightly, "h0.05 h0.025", &all, "offset=0.4")
@@ -186,7 +187,12 @@ fn plan() -> Plan {
         .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.1", "flip=0 offset=0.1"])
-        .each(Nightly, "h0.05", &explicit, ["contact=bodies", "contact=bodies offset=0.1", "contact=bodies offset=0.4"])
+        .each(
+            Nightly,
+            "h0.05",
+            &explicit,
+            ["", " offset=0.1", " offset=0.4", " offset=0.5"].map(|set| format!("contact=bodies{set}")),
+        )
 }
 
 fn sketch() -> Sketch {

@@ -1,11 +1,8 @@
 //! Scene and observations of the discs, four times a second at the paper's speed, as often at others.
 
-use super::flight::until_met;
+use super::flight::{CENTRES, RADIUS, until_met};
 use super::*;
 
-/// Radius and centres (m) of the discs.
-pub(super) const RADIUS: f64 = 0.2;
-pub(super) const CENTRES: [[f64; 2]; 2] = [[0.2, 0.2], [0.8, 0.8]];
 /// The centre of symmetry (m).
 const MIDDLE: f64 = 0.5;
 /// Side of the square of cells (m), and room around it.

@@ -1,9 +1,65 @@
-//! Bodies and steps made from a scene file, in words: a wrong unit shows here.
+//! Bodies and steps made from a scene file, and the same in words: a wrong unit shows here.
 
 use super::fault::Line;
-use super::form::LoadForm;
+use super::form::{BodyForm, LoadForm};
 use super::phase::Phase;
 use super::setup::Setup;
+use super::shape::Seeds;
+use crate::cases::prelude::*;
+use std::ops::Range;
+use std::sync::Arc;
+
+impl<const D: usize> Setup<D> {
+    /// The bodies of a phase at its start.
+    pub(super) fn bodies(&self, phase: &Phase) -> Result<Bodies<D>, mpm_core::Error> {
+        let mut all: Option<Bodies<D>> = None;
+        let laws = [&phase.law].into_iter().chain(&self.others);
+        for ((body, law), range) in self.form.all_bodies().zip(laws).zip(self.ranges()) {
+            let (body, law) = (body.get_ref(), Arc::clone(law));
+            let particles = self.particles_of(body, range)?;
+            let mut bodies = match all.take() {
+                None => Bodies::new(law, particles)?,
+                Some(others) => others.and(law, particles)?,
+            };
+            if body.remedy == Some(false) {
+                bodies = bodies.without_remedy();
+            }
+            all = Some(match body.friction {
+                Some(friction) => bodies.sliding(friction.0)?,
+                None => bodies,
+            });
+        }
+        all.ok_or(mpm_core::Error::Input { what: "bodies of a scene", value: 0.0, allowed: "1 or more" })
+    }
+
+    /// The names of the bodies, if there are several.
+    pub(super) fn several(&self) -> Vec<&str> {
+        let all = self.form.all_bodies().filter(|_| self.ends.len() > 1);
+        all.map(|body| body.get_ref().name()).collect()
+    }
+
+    /// Places of the particles of every body among all.
+    pub(super) fn ranges(&self) -> impl Iterator<Item = Range<usize>> {
+        let begins = [0].into_iter().chain(self.ends.iter().copied());
+        begins.zip(&self.ends).map(|(begin, end)| begin..*end)
+    }
+
+    fn particles_of(&self, body: &BodyForm, range: Range<usize>) -> Result<Particles<D>, mpm_core::Error> {
+        let Seeds { places, volumes, velocities } = &self.seeds;
+        let (density, lattice) = (body.density_kg_m3.0, self.spacing.powi(D as i32));
+        // Domains are alike: those of a table that has volumes are as large as its largest particle.
+        let largest = volumes.iter().copied().fold(0.0, f64::max);
+        let size = if largest == lattice { self.spacing } else { largest.powf(1.0 / D as f64) };
+        let (places, volumes) = (places[range.clone()].to_vec(), &volumes[range.clone()]);
+        let mut particles = Particles::new(places, lattice, density, [0.5 * size.min(self.grid.h); D])?;
+        if volumes.iter().any(|volume| *volume != lattice) {
+            particles.mass = volumes.iter().map(|volume| density * volume).collect();
+            (particles.volume, particles.reference_volume) = (volumes.to_vec(), volumes.to_vec());
+        }
+        particles.velocity.copy_from_slice(&velocities[range]);
+        Ok(particles)
+    }
+}
 
 impl<const D: usize> Setup<D> {
     /// Size of all bodies together (m).

@@ -6,6 +6,7 @@ use super::setup::Setup as Made;
 use crate::cases::prelude::*;
 use crate::problem;
 use crate::statistics::checkerboard;
+use mpm_core::SymmetricTensor;
 use mpm_core::basis::WallTreatment;
 
 metrics! { pub(super) ALL:
@@ -206,7 +207,10 @@ impl<const D: usize> Problem<D> for Course<D> {
 
     /// Without the velocities, which equilibrium lacks, and the fields that solver or law lacks.
     fn particles<'a>(&self, _: &Seen, mut columns: Columns<'a, D>) -> Columns<'a, D> {
-        let count = columns.run().particles().len();
+        let (count, stress) = (columns.run().particles().len(), columns.run().force_stress());
+        columns = columns.axes(["displacement_x", "displacement_y", "displacement_z"], "m", |p, k| {
+            std::array::from_fn(|a| p.position[k][a] - p.reference[k][a])
+        });
         if !columns.run().particles().velocity.is_empty() {
             columns = columns.axes(["velocity_x", "velocity_y", "velocity_z"], "m/s", |p, k| p.velocity[k]);
         }
@@ -220,7 +224,20 @@ impl<const D: usize> Problem<D> for Course<D> {
                 columns = columns.field(name, unit, field);
             }
         }
-        let columns = columns.jacobian();
+        let parts: [(_, fn(&SymmetricTensor) -> f64); 7] = [
+            ("stress_xx", |s| s.xx),
+            ("stress_yy", |s| s.yy),
+            ("stress_zz", |s| s.zz),
+            ("stress_xy", |s| s.xy),
+            ("stress_yz", |s| s.yz),
+            ("stress_xz", |s| s.xz),
+            ("von_mises_stress", |s| 1.5_f64.sqrt() * s.deviator().norm()),
+        ];
+        for (name, of) in parts.into_iter().filter(|(name, _)| D == 3 || !name.ends_with("z") || *name == "stress_zz") {
+            columns = columns.each(name, "Pa", |_, k| of(&stress[k]));
+        }
+        let columns = columns.jacobian().each("volume", ["m", "m²", "m³"][D - 1], |p, k| p.volume[k]);
+        let columns = columns.each("id", "-", |p, k| f64::from(p.id[k]));
         match self.setup.ends.len() {
             1 => columns,
             _ => {
