@@ -1,13 +1,15 @@
 //! The commands `run` and `scene`: one run, begun or resumed.
 
+use super::verify::make_and_report;
 use super::*;
 use crate::progress::{Teller, so_far};
 use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::error::one_line;
 use mpm_verify::files::{read_text, write_whole};
+use mpm_verify::golden;
 use mpm_verify::parameter::Parameters;
 use mpm_verify::record::Record;
-use mpm_verify::report::{discard_report, single};
+use mpm_verify::report::{Files, discard_report, single};
 use mpm_verify::run::checkpoint::{self, Identity, Saving};
 use mpm_verify::run::size::available_memory;
 use mpm_verify::run::{RECORD, require_tables};
@@ -15,6 +17,7 @@ use mpm_verify::scheme::{BasisName, RemedyName, TransferName};
 use mpm_verify::size::{GIBIBYTE, Size};
 use mpm_verify::study::found::own_record;
 use mpm_verify::study::judge::{exit_code, judge, judged_run};
+use mpm_verify::study::plan::Plan;
 use std::path::Path;
 
 #[derive(Args)]
@@ -22,10 +25,10 @@ pub(crate) struct Run {
     /// Name of the case
     #[arg(value_parser = case(), hide_possible_values = true)]
     case: &'static Case,
-    /// Full name of the scheme, as in `explain` and records (replaces its parts)
-    #[arg(long, value_parser = Schemes, hide_possible_values = true,
+    /// Full name of the scheme, as in `explain` and records (replaces its parts); several between commas make a sweep
+    #[arg(long, value_parser = Schemes, hide_possible_values = true, value_delimiter = ',',
             conflicts_with_all = ["solver", "basis", "remedy", "transfer"])]
-    scheme: Option<Scheme>,
+    scheme: Vec<Scheme>,
     /// Solver (default: explicit, if the case has it)
     #[arg(long, value_parser = Scheme::SOLVERS.to_vec())]
     solver: Option<String>,
@@ -38,9 +41,9 @@ pub(crate) struct Run {
     /// Transfer of an explicit run (default: flip)
     #[arg(long, value_parser = one_of(TransferName::NAMES, TransferName::parse))]
     transfer: Option<TransferName>,
-    /// Level of refinement (default: the coarsest)
-    #[arg(long)]
-    level: Option<String>,
+    /// Level of refinement (default: the coarsest); several between commas make a sweep, with orders in its report
+    #[arg(long, value_delimiter = ',')]
+    level: Vec<String>,
     /// Value of a parameter, in place of its default
     #[arg(long = "set", value_name = "NAME=VALUE")]
     set: Vec<String>,
@@ -54,10 +57,24 @@ pub(crate) struct Run {
 impl Run {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let case = self.case;
-        let scheme = self.scheme.map_or_else(|| self.scheme_of_parts(), Ok)?;
-        let level = self.level.as_deref().map_or(Ok(case.levels[0]), |name| find_level(case, name))?;
-        let spec = RunSpec { scheme, level, set: self.set, perturbed: self.perturb };
-        self.making.run(case, &spec)
+        let parts = if self.scheme.is_empty() { vec![self.scheme_of_parts()?] } else { Vec::new() };
+        let schemes = [self.scheme, parts].concat();
+        let coarsest = self.level.is_empty().then_some(Ok(case.levels[0]));
+        let levels = coarsest.into_iter().chain(self.level.iter().map(|name| find_level(case, name)));
+        let levels = levels.collect::<Result<Vec<_>, _>>()?;
+        schemes.iter().try_for_each(|scheme| require_offered(case, *scheme))?;
+        if let ([scheme], [level]) = (&schemes[..], &levels[..]) {
+            let spec = RunSpec { scheme: *scheme, level: *level, set: self.set, perturbed: self.perturb };
+            return self.making.run(case, &spec);
+        }
+        let Some(out) = self.making.folder().filter(|_| !self.perturb) else {
+            return Err(Error::Input("several runs need --out DIR for their report, and are not perturbed".to_owned()));
+        };
+        Parameters::new(&case.parameters, &self.set)?;
+        let plan = Plan::sweep(case, &schemes, &levels, &self.set);
+        let making = &self.making;
+        let saving = saving(making.checkpoint_every, making.resume.is_some());
+        make_and_report(&plan, (out, Files::All), saving, making.threads, &golden::place(None), making.told)
     }
 
     /// The scheme of the given parts, with the case's defaults for the others.
@@ -155,6 +172,17 @@ impl Scene {
     }
 }
 
+/// Refuses a scheme that a case does not offer.
+fn require_offered(case: &Case, scheme: Scheme) -> Result<(), Error> {
+    let offered = case.schemes();
+    if offered.contains(&scheme.of_the_family()) {
+        return Ok(());
+    }
+    let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
+    let what = format!("scheme of {}", case.name);
+    Err(Error::unknown(&what, &scheme.to_string(), names.iter().map(String::as_str)))
+}
+
 /// Runs `spec` of `case` on `threads` threads within `memory` (bytes), if that is known, draws it into its folder, if it has
 /// one, and prints its size and progress.
 fn run_one(
@@ -164,15 +192,6 @@ fn run_one(
     (threads, memory): (usize, Option<f64>),
     told: Told,
 ) -> Result<Record, Error> {
-    let offered = case.schemes();
-    if !offered.contains(&spec.scheme.of_the_family()) {
-        let names: Vec<String> = offered.iter().map(Scheme::to_string).collect();
-        return Err(Error::unknown(
-            &format!("scheme of {}", case.name),
-            &spec.scheme.to_string(),
-            names.iter().map(String::as_str),
-        ));
-    }
     if let Some((folder, _)) = place {
         // A run leaves one of these, also if it is killed.
         let traces = [RECORD, checkpoint::FILE, ".mpm-verify", ".mpm-verify.lock"].map(|file| folder.join(file));

@@ -54,25 +54,35 @@ impl Verify {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let chosen = |c: &&Case| self.cases.is_empty() || self.cases.iter().any(|n| n.name == c.name);
         let plan = Plan::new(cases::all().iter().filter(chosen), self.tier, self.shard)?;
-        let workers = or_all_cores(self.threads);
         if let Some(gib) = self.memory {
-            require_memory(&plan, gib * GIBIBYTE, workers)?;
+            require_memory(&plan, gib * GIBIBYTE, or_all_cores(self.threads))?;
         }
-        let names = plan.own().map(|run| run.folder().display().to_string());
-        let listener = progress::Runs::new(names.collect(), self.told.progress());
-        // A missing folder of goldens is reported before hours of runs.
-        let goldens = Goldens::open(&golden::place(self.golden))?;
-        let _held = hold(&self.out)?;
-        discard_report(&self.out)?;
+        let files = if self.all_files { Files::All } else { Files::Shown };
         let saving = saving(self.checkpoint_every, self.resume);
-        let records = make_runs(&plan, &self.out, saving, workers, &listener)?;
-        match plan.shard == Shard::WHOLE {
-            true => {
-                let files = if self.all_files { Files::All } else { Files::Shown };
-                report_in(std::slice::from_ref(&self.out), (&self.out, files), &goldens, None, self.told)
-            }
-            false => tell_shard(&plan, &records, self.told),
-        }
+        make_and_report(&plan, (&self.out, files), saving, self.threads, &golden::place(self.golden), self.told)
+    }
+}
+
+/// Makes the runs of a plan in `out` and reports them there, or prints those of a shard.
+pub(super) fn make_and_report(
+    plan: &Plan,
+    (out, files): (&Path, Files),
+    saving: Saving,
+    threads: Option<usize>,
+    goldens: &Path,
+    told: Told,
+) -> Result<ExitCode, Error> {
+    let names = plan.own().map(|run| run.folder().display().to_string());
+    let listener = progress::Runs::new(names.collect(), told.progress());
+    // A missing folder of goldens is reported before hours of runs.
+    let goldens = Goldens::open(goldens)?;
+    let _held = hold(out)?;
+    discard_report(out)?;
+    let records = make_runs(plan, out, saving, or_all_cores(threads), &listener)?;
+    if plan.shard == Shard::WHOLE {
+        report_in(&[out.to_path_buf()], (out, files), &goldens, None, told)
+    } else {
+        tell_shard(plan, &records, told)
     }
 }
 

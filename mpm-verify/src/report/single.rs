@@ -24,37 +24,46 @@ pub fn draw(case: &Case, record: &Record, folder: &Path) -> Result<Vec<Picture>,
 
 /// Draws the run in `folder`: its particles, and what it went through.
 pub(super) fn own(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
-    let pictures = [field(case, record, folder, out)?, history(case, record, folder, out)?];
-    Ok(pictures.into_iter().flatten().collect())
+    let mut pictures = fields(case, record, folder, out)?;
+    pictures.extend(history(case, record, folder, out)?);
+    Ok(pictures)
 }
 
-/// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first.
-fn field(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Option<Picture>, Error> {
+/// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first; of a scene by
+/// what else its tables hold.
+fn fields(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
     let path = folder.join("particles.csv");
     if !path.exists() || record.discretisation.dim != 2 {
-        return Ok(None);
+        return Ok(Vec::new());
     }
     let (view, table) = (case.field, Table::read(&path)?);
     // Where ground has yielded the mechanism shows.
     let flows = bulk(table.column("plastic_strain")).is_some();
     let value = view.map_or(if flows { "plastic_strain" } else { "mean_stress" }, |view| view.value);
     let label = table.iter().map(|(header, _)| header).filter(|h| h.split(" (").next() == Some(value)).last();
-    let (Some(label), Some(range)) = (label, bulk(table.column(value))) else { return Ok(None) };
+    let mut shown: Vec<(&str, String, Vec<f64>)> = Vec::new();
+    shown.extend(label.map(|label| ("particles", label.to_owned(), table.column(value).to_vec())));
+    let moved = table.points("displacement_x", "displacement_y");
+    if !moved.is_empty() {
+        let ways = moved.into_iter().map(|(x, y)| x.hypot(y)).collect();
+        shown.push(("displacement", "displacement (m)".to_owned(), ways));
+        let mean = table.column("mean_stress").to_vec();
+        shown.extend((value != "mean_stress").then(|| ("mean-stress", "mean stress (Pa)".to_owned(), mean)));
+    }
     let d = &record.discretisation;
     let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
-    let panel = FieldPanel {
-        title,
-        points: table.points("x", "y"),
-        values: table.column(value).to_vec(),
-        size: d.h / f64::from(d.ppc).sqrt(),
-        outline: Vec::new(),
-    };
-    let window = view.map(|view| view.window.into());
-    let figure = FieldFigure { window, ..FieldFigure::single(panel, label.replace('_', " "), range) };
-    let file = format!("{}/particles.png", record.case);
-    draw_fields(&out.join(&file), &figure)?;
-    let caption = format!("{}: particles at the end.", record.folder());
-    Ok(Some(Picture { file, caption }))
+    let mut pictures = Vec::new();
+    for (name, label, values) in shown {
+        let Some(range) = bulk(&values) else { continue };
+        let (points, size) = (table.points("x", "y"), d.h / f64::from(d.ppc).sqrt());
+        let panel = FieldPanel { title: title.clone(), points, values, size, outline: Vec::new() };
+        let window = view.map(|view| view.window.into());
+        let figure = FieldFigure { window, ..FieldFigure::single(panel, label.replace('_', " "), range) };
+        let file = format!("{}/{name}.png", record.case);
+        draw_fields(&out.join(&file), &figure)?;
+        pictures.push(Picture { file, caption: format!("{}: {name} at the end.", record.folder()) });
+    }
+    Ok(pictures)
 }
 
 /// The range of all values but those in the lowest and the highest hundredth; about zero where both signs occur.

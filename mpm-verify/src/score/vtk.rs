@@ -9,8 +9,7 @@ const AXES: [&str; 3] = ["x (m)", "y (m)", "z (m)"];
 type Parts = (&'static str, &'static str, usize, &'static [(usize, &'static str)]);
 
 /// Vectors and tensors with the columns of their components; of a symmetric tensor VTK has xx, yy, zz, xy, yz and xz.
-const PARTS: [Parts; 6] = [
-    ("velocity", "m/s", 3, &[(0, "velocity_x (m/s)"), (1, "velocity_y (m/s)"), (2, "velocity_z (m/s)")]),
+const PARTS: [Parts; 5] = [
     ("reference", "m", 3, &[(0, "reference_x (m)"), (1, "reference_y (m)"), (2, "reference_z (m)")]),
     ("displacement", "m", 3, &[(0, "ux (m)"), (1, "uy (m)"), (2, "uz (m)")]),
     ("plateau_displacement", "m", 3, &[(0, "plateau_ux (m)"), (1, "plateau_uy (m)")]),

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::files::write_json;
-use crate::spec::run_folder;
+use crate::spec::{Level, run_folder};
 use std::collections::BTreeSet;
 
 /// Version of the plan's format.
@@ -99,7 +99,24 @@ pub struct Plan {
     pub runs: Vec<PlannedRun>,
 }
 
+/// Tier of a plan of runs that a user chose.
+const SWEEP: &str = "sweep";
+
 impl Plan {
+    /// The plan of runs of `case` with each of these schemes on each of these levels, with the same changed parameters.
+    #[must_use]
+    pub fn sweep(case: &Case, schemes: &[Scheme], levels: &[Level], set: &[String]) -> Self {
+        let run = |(scheme, level): (&Scheme, &Level)| PlannedRun {
+            case: case.name.to_owned(),
+            scheme: *scheme,
+            level: level.name.to_owned(),
+            set: set.to_vec(),
+            shard: 1,
+        };
+        let runs = schemes.iter().flat_map(|scheme| levels.iter().map(move |level| run((scheme, level)))).collect();
+        Self { schema: SCHEMA, tier: SWEEP.to_owned(), shard: Shard::WHOLE, runs }
+    }
+
     /// The plan of `cases` for `tier`. The shards are dealt the runs in turn, the costliest first.
     ///
     /// # Errors
@@ -147,6 +164,9 @@ impl Plan {
     /// # Errors
     /// A tier or case that is not known.
     pub fn gap(&self) -> Result<Option<String>, Error> {
+        if self.tier == SWEEP {
+            return Ok(None);
+        }
         let tier = Tier::parse(&self.tier)?;
         for name in distinct(self.runs.iter().map(|run| &run.case)) {
             let case = cases::find(name)?;

@@ -30,6 +30,7 @@ use form::{FORMAT, Form};
 use setup::Setup;
 use shape::Seeds;
 use std::path::Path;
+use std::sync::Mutex;
 use watch::{Course, MASS};
 
 /// Relative tolerance of the check of a run's mass: a sum of many terms rounds.
@@ -66,25 +67,20 @@ impl SceneFile {
         let title = form.title.clone();
         let dimension = form.grid.get_ref().cells.len();
         let h = form.grid.get_ref().cell_size_m.0;
-        let look = match dimension {
-            1 => look::<1>,
-            2 => look::<2>,
-            3 => look::<3>,
+        let open = match dimension {
+            1 => open::<1>,
+            2 => open::<2>,
+            3 => open::<3>,
             _ => {
                 let said = format!("cells has {dimension} numbers where 1 to 3 are allowed");
                 return Err(source.at(&form.grid, said));
             }
         };
-        let found = look(&source, form)?;
+        let (found, begin) = open(source, form)?;
         let scheme = found.scheme;
         let level = Level { name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()), h };
-        let begin = move |spec: &RunSpec, values: &Parameters| match dimension {
-            1 => begin::<1>(&source, spec, values),
-            2 => begin::<2>(&source, spec, values),
-            _ => begin::<3>(&source, spec, values),
-        };
         Ok(Self {
-            case: Case { size: Some(found.size), ..case(dimension, level, scheme, found.mass, Box::new(begin)) },
+            case: Case { size: Some(found.size), ..case(dimension, level, scheme, found.mass, begin) },
             spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false },
             title,
             made: found.made,
@@ -105,12 +101,13 @@ struct Found {
     size: Size,
 }
 
-/// Builds every phase once, so that what is wrong in the last one is said before the first.
-fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error> {
-    let setup = Setup::<D>::new(source, form)?;
+/// Builds every phase once, so that what is wrong in the last one is said before the first; and what begins a run, the
+/// first time by what is built here.
+fn open<const D: usize>(source: Source, form: Form) -> Result<(Found, Begin), Error> {
+    let setup = Setup::<D>::new(&source, form)?;
     let (mut mass, mut size) = (0.0, setup.size);
     for phase in &setup.phases {
-        let run = setup.solve(phase).map_err(|e| setup.fault(source, phase, &e))?;
+        let run = setup.solve(phase).map_err(|e| setup.fault(&source, phase, &e))?;
         mass = run.totals().mass;
         (size.particles, size.nodes) = (run.particles().len() as f64, run.work().nodes as f64);
     }
@@ -120,16 +117,20 @@ fn look<const D: usize>(source: &Source, form: Form) -> Result<Found, Error> {
     all.extend(numbers.flat_map(|x| x.to_le_bytes()));
     all.extend(source.weaker.to_le_bytes());
     let (made, height) = (setup.made(), setup.reach()[D - 1]);
-    Ok(Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height, size })
+    let found = Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height, size };
+    let built = Mutex::new(Some(setup));
+    let begin = move |spec: &RunSpec, values: &Parameters| {
+        let made = match built.lock().ok().and_then(|mut built| built.take()) {
+            Some(built) => built,
+            None => Setup::<D>::new(&source, source.form()?)?,
+        };
+        let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
+        Ok(Box::new(Driver::new(course)?) as Box<dyn Job>)
+    };
+    Ok((found, Box::new(begin)))
 }
 
-fn begin<const D: usize>(source: &Source, spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error> {
-    let made = Setup::<D>::new(source, source.form()?)?;
-    let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
-    Ok(Box::new(Driver::new(course)?))
-}
-
-/// The case of a scene in `dimension` dimensions whose body has a `mass` (kg).
+/// The case of a scene in `dimension` dimensions whose bodies have a `mass` (kg).
 fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
     let why = "particles carry their mass: a sum of it rounds";
     let kept = move |r: &Record| vec![Finding::within(MASS, r.metric(MASS), mass, ROUNDING * mass, why)];
