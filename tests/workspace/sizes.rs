@@ -5,7 +5,7 @@ use std::path::Path;
 
 /// Part, its folder, lines of its tests included or not, and most lines.
 const BOUNDS: [(&str, &str, bool, usize); 8] = [
-    ("the harness without tests", "mpm-verify/src", false, 45_350),
+    ("the harness without tests", "mpm-verify/src", false, 45_250),
     ("its cases without tests", "mpm-verify/src/cases", false, 25_800),
     ("its reports without tests", "mpm-verify/src/report", false, 5_250),
     ("its drawing without tests", "mpm-verify/src/draw", false, 2_600),

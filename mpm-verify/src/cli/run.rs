@@ -71,7 +71,7 @@ impl Run {
             return Err(Error::Input("several runs need --out DIR for their report, and are not perturbed".to_owned()));
         };
         Parameters::new(&case.parameters, &self.set)?;
-        let plan = Plan::sweep(case, &schemes, &levels, &self.set);
+        let plan = Plan::sweep(case, &schemes, &levels, &self.set)?;
         let making = &self.making;
         let saving = saving(making.checkpoint_every, making.resume.is_some());
         make_and_report(&plan, (out, Files::All), saving, making.threads, &golden::place(None), making.told)

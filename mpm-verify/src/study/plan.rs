@@ -104,8 +104,10 @@ const SWEEP: &str = "sweep";
 
 impl Plan {
     /// The plan of runs of `case` with each of these schemes on each of these levels, with the same changed parameters.
-    #[must_use]
-    pub fn sweep(case: &Case, schemes: &[Scheme], levels: &[Level], set: &[String]) -> Self {
+    ///
+    /// # Errors
+    /// A run is there twice.
+    pub fn sweep(case: &Case, schemes: &[Scheme], levels: &[Level], set: &[String]) -> Result<Self, Error> {
         let run = |(scheme, level): (&Scheme, &Level)| PlannedRun {
             case: case.name.to_owned(),
             scheme: *scheme,
@@ -114,7 +116,9 @@ impl Plan {
             shard: 1,
         };
         let runs = schemes.iter().flat_map(|scheme| levels.iter().map(move |level| run((scheme, level)))).collect();
-        Self { schema: SCHEMA, tier: SWEEP.to_owned(), shard: Shard::WHOLE, runs }
+        let plan = Self { schema: SCHEMA, tier: SWEEP.to_owned(), shard: Shard::WHOLE, runs };
+        plan.check().map_err(Error::Input)?;
+        Ok(plan)
     }
 
     /// The plan of `cases` for `tier`. The shards are dealt the runs in turn, the costliest first.
@@ -217,7 +221,9 @@ impl Plan {
         if self.runs.is_empty() {
             return Err("no runs".to_owned());
         }
-        Tier::parse(&self.tier).map_err(|e| e.to_string())?;
+        if self.tier != SWEEP {
+            Tier::parse(&self.tier).map_err(|e| e.to_string())?;
+        }
         let mut seen = BTreeSet::new();
         for run in &self.runs {
             let folder = run.folder();
@@ -272,6 +278,16 @@ mod tests {
         let same = |a: &PlannedRun, b: &PlannedRun| a.folder() == b.folder();
         let has = |run: &PlannedRun| long.runs.iter().any(|other| same(run, other));
         assert!(of(Tier::Nightly).runs.iter().all(has));
+    }
+
+    #[test]
+    fn a_sweep_has_every_pair_once_and_is_no_tier() {
+        let case = cases::find("cook").unwrap();
+        let schemes = &case.schemes()[..2];
+        let plan = Plan::sweep(case, schemes, &case.levels[..3], &[]).unwrap();
+        assert_eq!((plan.own().count(), plan.gap().unwrap()), (6, None));
+        let twice = [case.levels[0]; 2];
+        assert!(Plan::sweep(case, schemes, &twice, &[]).unwrap_err().to_string().contains("h"));
     }
 
     #[test]
