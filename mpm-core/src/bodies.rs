@@ -88,14 +88,18 @@ impl<const D: usize> Bodies<D> {
     /// A coefficient that is negative or not finite.
     pub fn sliding(mut self, friction: f64) -> Result<Self, Error> {
         require(friction >= 0.0, "friction between bodies", friction, "zero or positive")?;
-        self.each.iter_mut().last().into_iter().for_each(|body| body.slides = Some(friction));
+        if let Some(body) = self.each.last_mut() {
+            body.slides = Some(friction);
+        }
         Ok(self)
     }
 
     /// The same bodies, of which the last one has no remedy.
     #[must_use]
     pub fn without_remedy(mut self) -> Self {
-        self.each.iter_mut().last().into_iter().for_each(|body| body.averages = false);
+        if let Some(body) = self.each.last_mut() {
+            body.averages = false;
+        }
         self
     }
 

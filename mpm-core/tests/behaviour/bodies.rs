@@ -349,21 +349,36 @@ fn discs_that_pass_do_not_feel_each_other() {
     }
 }
 
-/// Blocks that fly at each other meet when their faces do, and not before.
-#[test]
-fn nothing_acts_before_surfaces_meet() {
-    let mut right = block(H, 2, [8, 2], [12, 6]);
-    right.velocity.fill([-0.5, 0.0]);
-    let left = block(H, 2, [3, 2], [7, 6]);
-    let bodies = Bodies::new(law(), left).unwrap().and(law(), right).unwrap().sliding(0.0).unwrap();
-    let mut solver = Solver::<2, 3, Gimp>::new(Scene::new(open_grid(H, 16), bodies), of_law()).unwrap();
+/// Blocks that fly at each other meet when their faces do, and not before; they keep momentum and gain no energy.
+fn meet_when_faces_do<const D: usize, const S: usize, B: Basis<S> + 'static>() {
+    let [left, mut right] = [(); 2].map(|()| block::<D>(H, 2, [2; D], [6; D]));
+    right.position.iter_mut().chain(&mut right.reference).for_each(|x| x[0] += 5.0 * H);
+    right.velocity.fill(std::array::from_fn(|a| if a == 0 { -0.5 } else { 0.1 }));
+    let bodies = Bodies::new(law(), left).unwrap().and(law(), right).unwrap().sliding(0.2).unwrap();
+    let mut solver = Solver::<D, S, B>::new(Scene::new(open_grid(H, 16), bodies), of_law()).unwrap();
     let dt = 0.3 * H / law().wave_speed(DENSITY);
+    let before = solver.totals();
     while solver.on(Part::Body(1)).impulse[0] == 0.0 {
         solver.step().unwrap();
         assert!(solver.time() < 1.1);
     }
     // The gap of half a metre closes at half a metre a second.
     assert!((solver.time() - 1.0).abs() <= 1.5 * dt, "{}", solver.time());
+    solver.advance(100).unwrap();
+    let after = solver.totals();
+    for (p, q) in before.momentum.iter().zip(after.momentum) {
+        assert!((p - q).abs() < 1e-11 * before.mass, "momentum {p} became {q}");
+    }
+    assert!(after.kinetic_energy + after.stored_energy < before.kinetic_energy);
+}
+
+#[test]
+fn nothing_acts_before_surfaces_meet_in_any_dimension() {
+    meet_when_faces_do::<1, 3, Gimp>();
+    meet_when_faces_do::<1, 4, CubicBSpline>();
+    meet_when_faces_do::<2, 3, Gimp>();
+    meet_when_faces_do::<3, 3, Gimp>();
+    meet_when_faces_do::<3, 3, QuadraticBSpline>();
 }
 
 #[test]
