@@ -29,6 +29,10 @@ impl Source {
             if said.starts_with("wanted exactly 1 element") {
                 said = "one kind of it is allowed, and the file names more or none".to_owned();
             }
+            // What the program calls a table is nothing to its user.
+            if let Some(place) = said.find("expected struct ") {
+                said.replace_range(place.., "a table of keys is allowed");
+            }
             if let Some(name) = nearest(&said) {
                 said.push_str(&format!("; is `{name}` meant?"));
             }
