@@ -224,7 +224,8 @@ impl<const D: usize> Problem<D> for Course<D> {
                 columns = columns.field(name, unit, field);
             }
         }
-        let parts: [(_, fn(&SymmetricTensor) -> f64); 7] = [
+        type Part = (&'static str, fn(&SymmetricTensor) -> f64);
+        let parts: [Part; 7] = [
             ("stress_xx", |s| s.xx),
             ("stress_yy", |s| s.yy),
             ("stress_zz", |s| s.zz),
