@@ -8,7 +8,7 @@
 //! * [`Grid`], [`Lattice`] and [`nodes`]: cells, axes, the nodes of a basis and what they hold in a step;
 //! * [`basis`]: linear, uGIMP, quadratic and cubic B-splines, one-dimensional factors of a tensor product;
 //! * [`material`]: constitutive laws, pure functions in three dimensions;
-//! * [`body`]: one law, its [`Particles`] and their states;
+//! * [`bodies`]: each with a law, the states of its [`Particles`], and how it meets the others;
 //! * [`stage`]: loads, force filters, constraints and particle filters;
 //! * [`contact`]: barrier contact with rigid bodies, with friction;
 //! * [`projection`]: the volume average Π;

@@ -152,7 +152,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     }
 
     /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the
-    /// [`SecondHalf`] of their step, unless the remedy averages before it.
+    /// [`SecondHalf`](super::SecondHalf) of their step, unless the remedy averages before it.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
         self.complete_nodes();
         let lattice = &self.lattice;
@@ -253,7 +253,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         remedy.force_mean(particles, &mut projection, &mut self.force_mean);
     }
 
-    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`] of the
+    /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`](super::SecondHalf) of the
     /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
         let Bodies { particles, each } = &self.scene.bodies;
@@ -309,7 +309,8 @@ fn carry_along<const D: usize, const S: usize, B: Basis<S>, T>(
     }
 }
 
-/// Energy (J) that one who holds a component of a node's velocity removes: see [`Accumulated`].
+/// Energy (J) that one who holds a component of a node's velocity removes: see
+/// [`Accumulated::constraint_loss`](crate::monitor::Accumulated::constraint_loss).
 pub(super) fn constraint_loss(mass: f64, before: f64, free: f64, held: f64) -> f64 {
     mass * (0.5 * (before * before - held * held) + (free - before) * held)
 }
