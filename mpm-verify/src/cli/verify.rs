@@ -108,7 +108,7 @@ fn tell_shard(plan: &Plan, records: &[Record], told: Told) -> Result<ExitCode, E
 
 #[derive(Args)]
 pub(crate) struct Report {
-    /// Folder of the runs, or those of all shards
+    /// Folder of the runs, those of all shards, or those of single runs
     #[arg(required = true)]
     folders: Vec<PathBuf>,
     /// Output folder (default: that of the runs, if it is a single one)

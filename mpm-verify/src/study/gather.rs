@@ -68,17 +68,37 @@ impl Gathered {
         Ok(Self::single(found.unwrap_or(record), folder))
     }
 
-    /// Reads every record of a plan; `folders` are those of all its shards, in any order, or that of a single run.
+    /// Reads runs that were made one by one.
+    fn read_alone(folders: &[PathBuf]) -> Result<Self, Error> {
+        let mut all = Self { tier: plan::SWEEP.to_owned(), studies: Vec::new(), folders: BTreeMap::new(), gap: None };
+        for folder in folders {
+            let one = Self::read_single(folder)?;
+            if let Some(place) = one.folders.keys().find(|place| all.folders.contains_key(*place)) {
+                return Err(Error::Input(format!("{place} is there twice, also in {}", folder.display())));
+            }
+            all.folders.extend(one.folders);
+            for study in one.studies {
+                match all.studies.iter_mut().find(|own| own.case == study.case) {
+                    Some(own) => own.records.extend(study.records),
+                    None => all.studies.push(study),
+                }
+            }
+        }
+        of_one_program(all.studies.iter().flat_map(|s| &s.records))?;
+        Ok(all)
+    }
+
+    /// Reads every record of a plan; `folders` are those of all its shards, in any order, or those of single runs.
     ///
     /// # Errors
     /// A folder holds no plan, the plans are not shares of one whole, a shard is missing or there
     /// twice, a run has no record, or a record is damaged, of another schema, run or program.
     pub fn read(folders: &[PathBuf]) -> Result<Self, Error> {
-        if let [folder] = folders
-            && !folder.join(plan::FILE).exists()
-            && folder.join(RECORD).exists()
-        {
-            return Self::read_single(folder);
+        let alone = |folder: &PathBuf| !folder.join(plan::FILE).exists() && folder.join(RECORD).exists();
+        match folders {
+            [folder] if alone(folder) => return Self::read_single(folder),
+            [first, ..] if alone(first) => return Self::read_alone(folders),
+            _ => {}
         }
         let plans = read_plans(folders)?;
         let (_, whole) = &plans[0];

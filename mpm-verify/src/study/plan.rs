@@ -100,7 +100,7 @@ pub struct Plan {
 }
 
 /// Tier of a plan of runs that a user chose.
-const SWEEP: &str = "sweep";
+pub(super) const SWEEP: &str = "sweep";
 
 impl Plan {
     /// The plan of runs of `case` with each of these schemes on each of these levels, with the same changed parameters.
