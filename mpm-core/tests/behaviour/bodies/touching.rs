@@ -167,3 +167,47 @@ fn two_discs_press_each_other_as_hertz_says() {
     assert!((found / width - 1.0).abs() < width / radius, "{found} of {width}");
     assert!((most / greatest - 1.0).abs() < width / radius, "{most} of {greatest}");
 }
+
+/// A block on an incline, both cut from a lattice that is not along it: rims are steps, whose normals differ from node to
+/// node and brake what slides. It never slides faster than on a smooth incline.
+#[test]
+fn a_lattice_cut_at_an_angle_is_rough() {
+    let (h, theta, g) = (0.25, 20.0_f64.to_radians(), 9.81);
+    let stiff = Hencky::new(5e5, 0.3).unwrap();
+    for friction in [0.0, 0.2, 0.5] {
+        let surface = |x: f64| 4.5 - x * theta.tan();
+        let base = without(block(h, 2, [0, 0], [40, 18]), |x| x[1] > surface(x[0]));
+        // Along the slope from one metre on, and off it.
+        let local = |x: &[f64; 2]| {
+            let d = [x[0] - 1.0, x[1] - surface(1.0)];
+            [d[0] * theta.cos() - d[1] * theta.sin(), d[0] * theta.sin() + d[1] * theta.cos()]
+        };
+        let upper = without(block(h, 2, [0, 0], [40, 32]), |x| {
+            let [along, off] = local(x);
+            !(0.0..2.0).contains(&along) || !(0.0..1.0).contains(&off)
+        });
+        let bodies = Bodies::new(stiff, base).unwrap().and(stiff, upper).unwrap().sliding(friction).unwrap();
+        let axes = [Axis::walls(0.0, 40), Axis::bounded(0.0, 32, (Side::Wall, Side::Open))];
+        let scene = Scene::new(Grid::new(h, axes).unwrap(), bodies)
+            .load(Gravity(Box::new(move |t| [0.0, -g * smooth_rise(t, 0.2)])))
+            .constrain(Wall::new(1, End::Lo, WallKind::Fixed));
+        let settings = Settings::new(courant_time_step(0.3, h, stiff.wave_speed(DENSITY)));
+        let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();
+        let momentum = |run: &Solver<2, 3, Gimp>| {
+            let body = &run.scene().bodies.each[1];
+            let all = run.scene().bodies.totals_of(body.range());
+            (all.momentum[0] * theta.cos() - all.momentum[1] * theta.sin()) / all.mass
+        };
+        let mut speeds = [0.0; 2];
+        for (time, speed) in [0.3, 1.0].into_iter().zip(&mut speeds) {
+            while solver.time() < time {
+                solver.step().unwrap();
+            }
+            *speed = momentum(&solver);
+        }
+        let exact = g * f64::max(0.0, theta.sin() - friction * theta.cos());
+        let found = (speeds[1] - speeds[0]) / 0.7;
+        told(&format!("acceleration on steps, friction {friction} (m/s²)"), found, exact);
+        assert!((-0.01..exact + 0.01).contains(&found), "{found} of {exact}");
+    }
+}
