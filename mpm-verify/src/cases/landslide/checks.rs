@@ -194,6 +194,7 @@ fn of_rest() -> Vec<Check> {
             .because("seen where the toe has yielded"),
         Check::truth("overburden", "vertical stress far from the face the weight above, rms within 2 % of γ H, or a fifth of a cell's weight")
             .unless(|c| moves_too_fast(c, c.overburden()))
+            .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
             .unless(|c| c.feels_the_face().then(|| "the face is felt at the back wall".to_owned()))
             .at_most(OVERBURDEN_ERROR, |c| c.overburden())
             .because("level ground"),
