@@ -20,8 +20,8 @@ pub struct Body {
     pub law: SharedLaw,
     /// Whether the remedy of the run averages over its particles. Averages never reach from one body into another.
     pub averages: bool,
-    /// Coulomb's coefficient μ with which it slides on other bodies, of a body that has a velocity field of its own; none
-    /// of one that sticks to the others.
+    /// Coulomb's coefficient μ with which it slides on other bodies, of a body that has a velocity field of its own; a body
+    /// that sticks to the others has none.
     pub slides: Option<f64>,
     /// Its particles, by place in the columns.
     range: Range<usize>,

@@ -163,7 +163,7 @@ fn several_bodies_keep_momentum_and_lose_energy_to_contact_alone() {
             for (p, q) in before.momentum.iter().zip(after.momentum) {
                 assert!((p - q).abs() < 1e-11 * before.mass, "momentum {p} became {q}");
             }
-            // What bodies exchange adds to nothing.
+            // Impulses between bodies sum to zero.
             let sum = [0, 1, 2].map(|body| solver.on(Part::Body(body)).impulse);
             for a in 0..2 {
                 assert!((sum[0][a] + sum[1][a] + sum[2][a]).abs() < 1e-11 * before.mass);
@@ -197,6 +197,23 @@ fn a_remedy_averages_within_a_body_only() {
     for (averaged, j) in field.iter().zip(&p.jacobian) {
         assert!((averaged - j).abs() < 1e-12, "{averaged} of {j}");
     }
+}
+
+#[test]
+fn a_body_without_remedy_keeps_its_own_jacobian() {
+    let [mut left, mut right] = [block(H, 2, [2, 4], [5, 8]), block(H, 2, [7, 4], [10, 8])];
+    swirl(&mut left, 0.3);
+    swirl(&mut right, 0.3);
+    let bodies = Bodies::new(law(), left).unwrap().and(law(), right).unwrap().without_remedy();
+    let mut settings = of_law();
+    settings.remedy = Box::new(Fbar::new(Form::Total));
+    let mut solver = Solver::<2, 3, Gimp>::new(Scene::new(open_grid(H, 12), bodies), settings).unwrap();
+    solver.advance(20).unwrap();
+    let gaps = [0, 1].map(|body| {
+        let bodies = &solver.scene().bodies;
+        bodies.totals_of(bodies.each[body].range()).log_jacobian_gap_max
+    });
+    assert!(gaps[0] > 1e-4 && gaps[1] < 1e-12, "{gaps:?}");
 }
 
 /// Waves in two bars of impedances Z = ρ c: amplitudes of velocity go on by 2 Z₁/(Z₁ + Z₂) and come back by

@@ -29,8 +29,8 @@ pub(super) fn own(case: &Case, record: &Record, folder: &Path, out: &Path) -> Re
     Ok(pictures)
 }
 
-/// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first; of a scene by
-/// what else its tables hold.
+/// Draws the particles of a plane run in `folder` at its end, coloured by what its readers should see first; a scene also by
+/// displacement and mean stress.
 fn fields(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec<Picture>, Error> {
     let path = folder.join("particles.csv");
     if !path.exists() || record.discretisation.dim != 2 {

@@ -162,7 +162,7 @@ fn two_discs_press_each_other_as_hertz_says() {
     told("force of two discs (N/m)", mean, force);
     told("half width of their contact (m)", found, width);
     told("greatest pressure (Pa)", most, greatest);
-    // What is pressed is in balance; Hertz's half-spaces err by the order of a/R, and the width lies in eight cells.
+    // The contact balances the load. Hertz's half-spaces err by the order of a/R; the contact is eight cells wide.
     assert!((mean / force - 1.0).abs() < 0.01, "{mean} of {force}");
     assert!((found / width - 1.0).abs() < width / radius, "{found} of {width}");
     assert!((most / greatest - 1.0).abs() < width / radius, "{most} of {greatest}");

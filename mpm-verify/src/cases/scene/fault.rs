@@ -29,7 +29,7 @@ impl Source {
             if said.starts_with("wanted exactly 1 element") {
                 said = "one kind of it is allowed, and the file names more or none".to_owned();
             }
-            // What the program calls a table is nothing to its user.
+            // A user doesn't know the names of the program's types.
             if let Some(place) = said.find("expected struct ") {
                 said.replace_range(place.., "a table of keys is allowed");
             }
