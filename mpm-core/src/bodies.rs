@@ -153,12 +153,6 @@ impl<const D: usize> Bodies<D> {
         Ok(seen)
     }
 
-    /// Refuses several bodies, to be called by what knows one alone.
-    pub(crate) fn require_one(&self, what: &'static str) -> Result<&Body, Error> {
-        require(self.each.len() == 1, what, self.each.len() as f64, "1 body, or an explicit solver")?;
-        Ok(&self.each[0])
-    }
-
     /// Stress and state of the particles after the deformation ΔF̄ of their `delta_f` over `dt` (s), Eq. (22), and
     /// their volume, Eq. (15).
     pub fn update_stress(&mut self, dt: f64) {

@@ -67,6 +67,19 @@ impl<const D: usize, const S: usize, B: Basis<S>> Lattice<D, S, B> {
         strides.into_iter().flat_map(move |s| [node.checked_sub(s), Some(node + s)]).flatten().filter(move |k| *k < len)
     }
 
+    /// The nodes within a few cells of a node along every axis, itself among them.
+    pub(crate) fn around(&self, node: usize, cells: usize) -> impl Iterator<Item = usize> + use<D, S, B> {
+        let (strides, width) = (self.strides, 2 * cells + 1);
+        let ends: [usize; D] = std::array::from_fn(|a| if a == 0 { self.len() } else { strides[a - 1] });
+        (0..width.pow(D as u32)).filter_map(move |k| {
+            (0..D).try_fold(0, |sum, a| {
+                let here = node % ends[a] / strides[a] + k / width.pow(a as u32) % width;
+                let at = here.checked_sub(cells)? * strides[a];
+                (at < ends[a]).then_some(sum + at)
+            })
+        })
+    }
+
     /// Whether nodes have periodic images.
     pub fn has_images(&self) -> bool {
         !self.images.is_empty()

@@ -1,9 +1,10 @@
 //! Contact between bodies, Bardenhagen, Brackbill & Sulsky (2000), doi 10.1016/S0045-7825(99)00338-2, and Bardenhagen et
 //! al. (2001): bodies that slide have velocity fields of their own, which exchange momentum at nodes that two of them see.
 //!
-//! The normal n of a node is the shortest way between the convex hulls of the particles of both that see it, and g along
-//! it the gap between their domains; where hulls overlap, n is that of the gradients of both volumes. With the relative
-//! velocity w = v_a − v_b and the reduced mass m, a step of Δt exchanges, where they would meet,
+//! The gap g of a node is that between the domains of the particles that see it, along the shortest way between their
+//! convex hulls. Its normal n is the shortest way between the hulls of the ends of all these ways near it; where hulls
+//! overlap, n is that of the gradients of both volumes. With the relative velocity w = v_a − v_b and the reduced mass m,
+//! a step of Δt exchanges, where they would meet,
 //!
 //! J = m (w·n − max(g, 0)/Δt) n + min(m |w_t|, μ J_n) w_t/|w_t|,
 //!
@@ -25,6 +26,8 @@ const NEAREST: f64 = 1e-12;
 const MOVES: usize = 100;
 /// Points of which one of least norm is made, at most.
 const MOST: usize = 4;
+/// Cells along each axis within which ways count for the normal of a node.
+const NEAR: usize = 3;
 /// Share of the squares of differences by which points on a line are kept apart.
 const LEAST: f64 = 1e-12;
 
@@ -52,6 +55,16 @@ pub(super) struct Touching<const D: usize> {
     /// Particles with such stencils, of both, and those that see a listed node, by its place.
     near: [Vec<usize>; 2],
     seen: [Vec<(usize, usize)>; 2],
+    /// Particles at the ends of the shortest ways, of both, by place, and those near one node.
+    ends: [Vec<(usize, usize)>; 2],
+    around: [Vec<(usize, usize)>; 2],
+}
+
+/// The shortest way (m) between two hulls, and the pairs of particles at its ends.
+struct Way<const D: usize> {
+    way: SVector<f64, D>,
+    pairs: [[(usize, usize); 2]; MOST],
+    count: usize,
 }
 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
@@ -74,7 +87,8 @@ impl<const D: usize> Touching<D> {
     /// Room on a lattice of this many nodes.
     pub(super) fn new(nodes: usize) -> Self {
         let (place, begins) = (vec![0; nodes], vec![false; nodes]);
-        Self { place, begins, shared: Vec::new(), near: [Vec::new(), Vec::new()], seen: [Vec::new(), Vec::new()] }
+        let [seen, ends, around] = <[[Vec<_>; 2]; 3]>::default();
+        Self { place, begins, shared: Vec::new(), near: Default::default(), seen, ends, around }
     }
 
     /// Finds the nodes that both fields see, their normals and the gaps there.
@@ -107,14 +121,14 @@ impl<const D: usize> Touching<D> {
             }
             seen.sort_unstable();
         }
-        let [mut first, mut second] = self.seen.each_ref().map(Vec::as_slice);
-        for (place, Shared { slopes: [a, b], normal, gap, free, .. }) in self.shared.iter_mut().enumerate() {
-            let both = [&mut first, &mut second].map(|seen| {
-                let count = seen.iter().take_while(|(at, _)| *at == place).count();
-                seen.split_off(..count).unwrap_or_default()
-            });
+        self.ends.iter_mut().for_each(Vec::clear);
+        for (place, Shared { slopes: [a, b], normal, gap, .. }) in self.shared.iter_mut().enumerate() {
+            let both = self.seen.each_ref().map(|seen| at_place(seen, place));
             *normal = *a - *b;
-            if let Some(way) = shortest_way(&p.position, both) {
+            if let Some(Way { way, pairs, count }) = shortest_way(&p.position, both) {
+                for (side, ends) in self.ends.iter_mut().enumerate() {
+                    ends.extend(pairs[..count].iter().map(|pair| (place, pair[side].1)));
+                }
                 *normal = way.normalize();
                 // Where a domain ends along the way, if it is the ellipsoid within.
                 let end = |k: usize, sign: f64| {
@@ -124,6 +138,17 @@ impl<const D: usize> Touching<D> {
                 let far = both[0].iter().map(|(_, k)| end(*k, 1.0)).fold(f64::NEG_INFINITY, f64::max);
                 let near = both[1].iter().map(|(_, k)| end(*k, -1.0)).fold(f64::INFINITY, f64::min);
                 *gap = (near - far).max(0.0);
+            }
+        }
+        for Shared { node, normal, free, .. } in &mut self.shared {
+            self.around.iter_mut().for_each(Vec::clear);
+            for place in lattice.around(*node, NEAR).filter_map(|near| self.place[near].checked_sub(1)) {
+                for (around, ends) in self.around.iter_mut().zip(&self.ends) {
+                    around.extend(at_place(ends, place as usize));
+                }
+            }
+            if let Some(wide) = shortest_way(&p.position, self.around.each_ref().map(Vec::as_slice)) {
+                *normal = wide.way;
             }
             for k in (0..D).filter(|k| !free[*k]) {
                 normal[k] = 0.0;
@@ -205,11 +230,19 @@ impl<const D: usize> Touching<D> {
     }
 }
 
-/// The shortest way (m) from the convex hull of some particles to that of others, none where they overlap: the point of
+/// The entries of a list, sorted by place, that have one place.
+fn at_place(list: &[(usize, usize)], place: usize) -> &[(usize, usize)] {
+    let from = list.partition_point(|(at, _)| *at < place);
+    let count = list[from..].partition_point(|(at, _)| *at == place);
+    &list[from..from + count]
+}
+
+/// The shortest way from the convex hull of some particles to that of others, none where they overlap: the point of
 /// least norm of their differences, by Wolfe (1976), doi 10.1007/BF01580381.
-fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, usize)]; 2]) -> Option<SVector<f64, D>> {
+fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, usize)]; 2]) -> Option<Way<D>> {
     let at = |(_, k): &(usize, usize)| SVector::from(positions[*k]);
-    let mut way = at(to.first()?) - at(from.first()?);
+    let mut pairs = [[*from.first()?, *to.first()?]; MOST];
+    let mut way = at(&pairs[0][1]) - at(&pairs[0][0]);
     let begun = way.norm_squared();
     // Differences with their shares in the way: at most one more than there are dimensions.
     let mut corral = [(way, 1.0); MOST];
@@ -217,13 +250,14 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
     for _ in 0..MOVES {
         let least = |seen: &[(usize, usize)], sign: f64| {
             let along = |seen: &&(usize, usize)| sign * way.dot(&at(seen));
-            seen.iter().min_by(|a, b| along(a).total_cmp(&along(b))).map(at)
+            seen.iter().min_by(|a, b| along(a).total_cmp(&along(b))).copied()
         };
-        let next = least(to, 1.0)? - least(from, -1.0)?;
+        let pair = [least(from, -1.0)?, least(to, 1.0)?];
+        let next = at(&pair[1]) - at(&pair[0]);
         if way.norm_squared() - way.dot(&next) <= NEAREST * way.norm_squared() || count > D {
             break;
         }
-        corral[count] = (next, 0.0);
+        (corral[count], pairs[count]) = ((next, 0.0), pair);
         count += 1;
         // Until the nearest point of the plane through the corral has shares of all in it.
         loop {
@@ -246,6 +280,7 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
             }
             count -= 1;
             corral.swap(out, count);
+            pairs.swap(out, count);
         }
         let shorter = corral[..count].iter().fold(SVector::zeros(), |sum, (point, share)| sum + point * *share);
         if shorter.norm_squared() >= way.norm_squared() {
@@ -254,7 +289,7 @@ fn shortest_way<const D: usize>(positions: &[[f64; D]], [from, to]: [&[(usize, u
         way = shorter;
     }
     // Hulls that overlap leave nothing but rounding.
-    (way.norm_squared() > NEAREST * begun).then_some(way)
+    (way.norm_squared() > NEAREST * begun).then_some(Way { way, pairs, count })
 }
 
 /// `visit(place in the list, gradient of the function (1/m))` for every listed node that a particle at `x` (m) sees.

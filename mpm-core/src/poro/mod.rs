@@ -24,13 +24,15 @@ mod water;
 pub use face::{Face, OfPlace};
 pub use plate::Plate;
 pub use settings::{Predictor, PressureSpace, Settings, Tangent, VolumeRate};
-pub use water::{Conductivity, Gravity, Source, Water};
+pub use water::{Conductivity, Gravity, Medium, Source, Water};
 
+use crate::bodies::Body;
 use crate::error::{Cause, Error};
 use crate::implicit::elements::{Elements, of_domains};
 use crate::implicit::failure::{Failure, in_parts};
 use crate::implicit::held::{self, Held};
 use crate::implicit::linear::{self, Direct, Linear};
+use crate::implicit::start::moduli_of;
 use crate::implicit::{Functions, Moduli, OfHats};
 use crate::ledger::Ledger;
 use crate::memory::Saved;
@@ -39,7 +41,7 @@ use crate::scene::Scene;
 use crate::simulation::{Field, Simulation};
 use crate::tensor::SymmetricTensor;
 use pores::Pores;
-use step::{Setting, Step};
+use step::{Setting, Step, solid_shares};
 use system::System;
 use unknowns::{Place, Unknowns};
 
@@ -49,7 +51,7 @@ struct Space<const D: usize> {
     originals: Vec<usize>,
 }
 
-/// The solver for one body of solid and water with functions of one kind for displacement and pressure.
+/// The solver for bodies of solid and water, one or several that stick, with functions of one kind for displacement and pressure.
 pub struct Solver<const D: usize> {
     scene: Scene<D>,
     water: Water<D>,
@@ -128,14 +130,16 @@ impl<const D: usize> Simulation<D> for Solver<D> {
 
     fn field(&mut self, field: Field) -> Vec<f64> {
         let particles = &self.scene.bodies.particles;
-        let solid = 1.0 - self.water.porosity;
         match field {
             Field::PlasticStrain => self.scene.bodies.plastic_strain(),
             Field::MeanStress | Field::AveragedMeanStress => {
                 particles.stress.iter().map(SymmetricTensor::mean).collect()
             }
             Field::PorePressure => self.pores.pressure.clone(),
-            Field::Porosity => particles.jacobian.iter().map(|j| 1.0 - solid / j).collect(),
+            Field::Porosity => {
+                let each = particles.jacobian.iter().zip(solid_shares(&self.scene.bodies, &self.water));
+                each.map(|(j, solid)| 1.0 - solid / j).collect()
+            }
         }
     }
 
@@ -165,7 +169,8 @@ impl<const D: usize> Solver<D> {
         let [of_solid, of_water] =
             [&self.solid_space, &self.water_space].map(|s| of_domains(s.functions.as_ref(), domains));
         let mut order: Vec<u32> = (0..particles.len() as u32).collect();
-        order.sort_by_key(|p| (of_solid[*p as usize], of_water[*p as usize]));
+        let body = |p: u32| self.scene.bodies.place_of(p as usize);
+        order.sort_by_key(|p| (body(*p), of_solid[*p as usize], of_water[*p as usize]));
         if !order.is_sorted() {
             self.scene.bodies.permute(&order);
             self.pores.permute(&order);
@@ -233,7 +238,8 @@ impl<const D: usize> Solver<D> {
                 _ => runs.push(p..p + 1),
             }
         }
-        let flow = self.water.initial_conductivity() * dt;
+        let flow = self.water.greatest_conductivity() * dt;
+        let shares = self.shares();
         let strengths = [self.settings.ghost_displacement * self.moduli.mu, self.settings.ghost_pressure * flow];
         // Cells that a domain touches by rounding alone are no part of the body: their nodes are no unknowns.
         let mut sizes = Vec::new();
@@ -243,7 +249,7 @@ impl<const D: usize> Solver<D> {
             if strengths[k] == 0.0 {
                 return Vec::new();
             }
-            let mut ghosts = space.functions.ghost(strengths[k], &[], components, within);
+            let mut ghosts = space.functions.ghost(strengths[k], &shares[k], components, within);
             for node in ghosts.iter_mut().flat_map(|g| &mut g.node) {
                 *node = space.originals[*node];
             }
@@ -273,6 +279,24 @@ impl<const D: usize> Solver<D> {
             groups,
             drains,
             external,
+        })
+    }
+
+    /// What the ghost penalties on displacement and pressure have of their strengths at every particle: its body's
+    /// stiffness and conductivity over the greatest. Empty of one body.
+    fn shares(&self) -> [Vec<f64>; 2] {
+        let bodies = &self.scene.bodies;
+        if bodies.each.len() == 1 {
+            return [Vec::new(), Vec::new()];
+        }
+        let greatest = [self.moduli.mu, self.water.greatest_conductivity()];
+        let of = |(body, medium): (&Body, &Medium)| {
+            [moduli_of(body.law.as_ref(), self.settings.dt).mu, medium.initial_conductivity()]
+        };
+        let each: Vec<[f64; 2]> = bodies.each.iter().zip(&self.water.media).map(of).collect();
+        [0, 1].map(|k| {
+            let own = bodies.each.iter().zip(&each);
+            own.flat_map(|(body, each)| vec![each[k] / greatest[k]; body.range().len()]).collect()
         })
     }
 

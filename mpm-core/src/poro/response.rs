@@ -5,7 +5,7 @@
 //! `docs/poromechanics.md`.
 
 use super::settings::VolumeRate;
-use super::water::Water;
+use super::water::{Gravity, Medium};
 use crate::implicit::response::{MOST, Square, minor, variables};
 use crate::material::{Answers, AnyLaw, SharedLaw};
 use crate::number::{Dual, Real};
@@ -16,7 +16,8 @@ use nalgebra::{Matrix3, SMatrix};
 pub(super) struct Particle<'a, const D: usize> {
     pub(super) law: &'a SharedLaw,
     pub(super) state: &'a [f64],
-    pub(super) water: &'a Water<D>,
+    pub(super) medium: Medium,
+    pub(super) gravity: Option<&'a Gravity<D>>,
     pub(super) rate: VolumeRate,
     /// Duration of the step (s).
     pub(super) dt: f64,
@@ -67,8 +68,8 @@ impl<const D: usize> Particle<'_, D> {
         let effective = self.law.stress(f, self.dt, self.state);
         let volume = number(self.volume);
         let change = determinant(f);
-        let solid = number((1.0 - self.water.porosity) / self.jacobian) / change;
-        let conductivity = volume * self.water.conductivity.at(number(1.0) - solid);
+        let solid = number((1.0 - self.medium.porosity) / self.jacobian) / change;
+        let conductivity = volume * self.medium.conductivity.at(number(1.0) - solid);
         let mut answer = Answer {
             stress: [T::default(); MOST],
             rate: volume
@@ -93,13 +94,13 @@ impl<const D: usize> Particle<'_, D> {
                 answer.flow[i] += answer.mobility[D * i + j] * number(slope[j]);
             }
         }
-        if let Some(gravity) = &self.water.gravity {
+        if let Some(gravity) = self.gravity {
             for i in 0..D {
                 for (row, g) in cofactor.iter().zip(gravity.acceleration) {
                     answer.flow[i] += -(number(gravity.water * g) * conductivity * row[i]);
                 }
             }
-            let grains = (1.0 - self.water.porosity) / self.jacobian;
+            let grains = (1.0 - self.medium.porosity) / self.jacobian;
             answer.mass =
                 volume * (number(gravity.grains * grains) + number(gravity.water) * (change - number(grains)));
         }

@@ -3,7 +3,8 @@
 use super::face::Acts;
 use super::plate::ties;
 use super::pores::{Pores, check_width, grown, keep_before_walls};
-use super::{OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
+use super::step::solid_shares;
+use super::{Moduli, OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
 use crate::error::{Error, Fault, positive, require};
 use crate::grid::{Axis, Grid};
 use crate::implicit::failure::Failure;
@@ -80,8 +81,10 @@ impl<const D: usize> Solver<D> {
         water: Water<D>,
         settings: Settings,
     ) -> Result<Self, Error> {
-        let law = &scene.bodies.require_one("bodies in a run with water")?.law;
-        settings.check(law.conservative())?;
+        let sliding = scene.bodies.each.iter().filter(|body| body.slides.is_some()).count();
+        require(sliding == 0, "bodies with water that slide", sliding as f64, "none: they stick where they touch")?;
+        let laws = || scene.bodies.each.iter().map(|body| &body.law);
+        settings.check(laws().all(|law| law.conservative()))?;
         let contacts = scene.contacts.len();
         require(
             contacts == 0,
@@ -90,13 +93,16 @@ impl<const D: usize> Solver<D> {
             "none: rigid bodies are constraints in such a scene",
         )?;
         held::check(&scene.constraints)?;
-        let moduli = moduli_of(law.as_ref(), settings.dt);
-        positive(moduli.mu, "shear modulus of a body with water", "positive (Pa)")?;
+        let moduli: Vec<Moduli> = laws().map(|law| moduli_of(law.as_ref(), settings.dt)).collect();
+        for own in &moduli {
+            positive(own.mu, "shear modulus of a body with water", "positive (Pa)")?;
+        }
+        let moduli = moduli.into_iter().max_by(|a, b| a.mu.total_cmp(&b.mu)).unwrap_or(Moduli { lambda: 0.0, mu: 0.0 });
         let mut drained = vec![false; water_space.functions.len()];
         water_space.functions.for_each_node(&mut |node, place| drained[node] = (water.drained)(&place));
         let by_faces = |face: &super::Face<D>| matches!(face.acts, Acts::Drains { .. });
         let drains = drained.contains(&true) || water.faces.iter().any(by_faces);
-        water.check(drains, law.porosity())?;
+        water.check(drains, &scene.bodies)?;
         for face in &water.faces {
             face.check(scene.bodies.particles.len())?;
         }
@@ -112,12 +118,15 @@ impl<const D: usize> Solver<D> {
             let begun = begin(solid_space.functions.as_ref(), particles, k);
             half_size.push(begun.map_err(|fault| ledger.breakdown(&particles.id, k, fault))?);
         }
-        for (k, j) in particles.jacobian.iter().enumerate() {
-            if *j <= 1.0 - water.porosity {
-                let fault = Fault::NonPositivePorosity(1.0 - (1.0 - water.porosity) / j);
+        let solid = solid_shares(&scene.bodies, &water);
+        let particles = &scene.bodies.particles;
+        for (k, (j, solid)) in particles.jacobian.iter().zip(solid).enumerate() {
+            if *j <= solid {
+                let fault = Fault::NonPositivePorosity(1.0 - solid / j);
                 return Err(ledger.breakdown(&particles.id, k, fault));
             }
         }
+        let particles = &mut scene.bodies.particles;
         particles.velocity = Vec::new();
         particles.affine = Vec::new();
         particles.increment = Vec::new();

@@ -75,6 +75,12 @@ pub(super) struct Step<'a, const D: usize> {
     pub(super) setting: &'a Setting<D>,
 }
 
+/// Volume of grains over that of the undeformed body, of every particle.
+pub(super) fn solid_shares<const D: usize>(bodies: &Bodies<D>, water: &Water<D>) -> impl Iterator<Item = f64> {
+    let each = bodies.each.iter().zip(&water.media);
+    each.flat_map(|(body, medium)| body.range().map(|_| 1.0 - medium.porosity))
+}
+
 /// A trial: nodal increments and pressures, and what they make of the body.
 pub(super) struct Trial<const D: usize> {
     /// Increments (m) and pressures (Pa) of the nodes.
@@ -108,7 +114,8 @@ impl<const D: usize> Step<'_, D> {
         Particle {
             law: &self.bodies.of(p).law,
             state: self.bodies.of(p).state(p),
-            water: self.water,
+            medium: self.water.media[self.bodies.place_of(p)],
+            gravity: self.water.gravity.as_ref(),
             rate: self.settings.volume_rate,
             dt: self.dt,
             volume: particles.volume[p],
@@ -144,9 +151,9 @@ impl<const D: usize> Step<'_, D> {
             }
             (setting.solid.deformation(k, &u), pressure, slope)
         });
-        let solid = 1.0 - self.water.porosity;
+        let solid = solid_shares(self.bodies, self.water);
         let mut pores = Vec::with_capacity(count);
-        for (k, (f, ..)) in gathered.iter().enumerate() {
+        for (k, ((f, ..), solid)) in gathered.iter().zip(solid).enumerate() {
             let change = determinant(f);
             check_jacobian(change).map_err(|fault| (k, fault))?;
             let jacobian = particles.jacobian[k] * change;

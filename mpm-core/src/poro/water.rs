@@ -3,6 +3,7 @@
 
 use super::face::{Face, OfPlace};
 use super::plate::Plate;
+use crate::bodies::Bodies;
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;
@@ -46,12 +47,26 @@ pub struct Gravity<const D: usize> {
 /// function of the reference position (m). Over short times it is the rate (1/s) times their difference.
 pub type Source<const D: usize> = Box<dyn Fn(&[f64; D], [f64; 2]) -> f64 + Send + Sync>;
 
-/// The water in a body, and where it may leave.
-pub struct Water<const D: usize> {
+/// The pores of a body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Medium {
     /// Porosity n₀ of the undeformed solid; n = 1 − (1 − n₀)/J.
     pub porosity: f64,
     /// Conductivity.
     pub conductivity: Conductivity,
+}
+
+impl Medium {
+    /// κ (m²/(Pa s)) of undeformed material.
+    pub fn initial_conductivity(&self) -> f64 {
+        self.conductivity.at(self.porosity)
+    }
+}
+
+/// The water in one or several bodies, and where it may leave.
+pub struct Water<const D: usize> {
+    /// The pores of every body.
+    pub media: Vec<Medium>,
     /// Gravity, if there is any.
     pub gravity: Option<Gravity<D>>,
     /// Pressure (Pa) at the start, as hydrostatic water has it.
@@ -71,8 +86,7 @@ impl<const D: usize> Water<D> {
     #[must_use]
     pub fn new(porosity: f64, conductivity: Conductivity) -> Self {
         Self {
-            porosity,
-            conductivity,
+            media: vec![Medium { porosity, conductivity }],
             gravity: None,
             start: Box::new(|_| 0.0),
             drained: Box::new(|_| false),
@@ -80,6 +94,13 @@ impl<const D: usize> Water<D> {
             sources: Vec::new(),
             plates: Vec::new(),
         }
+    }
+
+    /// With the pores of another body, after those that are there.
+    #[must_use]
+    pub fn and(mut self, porosity: f64, conductivity: Conductivity) -> Self {
+        self.media.push(Medium { porosity, conductivity });
+        self
     }
 
     /// With gravity.
@@ -127,6 +148,13 @@ impl<const D: usize> Water<D> {
         let (frame, grid) = (*frame, *grid);
         let permeability = frame.scale(-1, 2);
         let density = frame.scale(1, -2);
+        let scaled = |medium: Medium| Medium {
+            conductivity: match medium.conductivity {
+                Conductivity::Constant(k) => Conductivity::Constant(permeability * k),
+                Conductivity::KozenyCarman(c) => Conductivity::KozenyCarman(permeability * c),
+            },
+            ..medium
+        };
         let (start, drained) = (self.start, self.drained);
         let sources = self
             .sources
@@ -135,11 +163,7 @@ impl<const D: usize> Water<D> {
         let faces = self.faces.into_iter().map(|f| f.seen_from(&frame));
         let plates = self.plates.into_iter();
         Self {
-            porosity: self.porosity,
-            conductivity: match self.conductivity {
-                Conductivity::Constant(k) => Conductivity::Constant(permeability * k),
-                Conductivity::KozenyCarman(c) => Conductivity::KozenyCarman(permeability * c),
-            },
+            media: self.media.into_iter().map(scaled).collect(),
             gravity: self.gravity.map(|gravity| Gravity {
                 water: density * gravity.water,
                 grains: density * gravity.grains,
@@ -153,23 +177,24 @@ impl<const D: usize> Water<D> {
         }
     }
 
-    /// κ (m²/(Pa s)) of undeformed material.
-    pub fn initial_conductivity(&self) -> f64 {
-        self.conductivity.at(self.porosity)
+    /// Greatest κ (m²/(Pa s)) of undeformed material.
+    pub(super) fn greatest_conductivity(&self) -> f64 {
+        self.media.iter().map(Medium::initial_conductivity).fold(0.0, f64::max)
     }
 
-    /// `drains`: whether water may leave; `of_law`: the porosity of a law that depends on it.
-    pub(super) fn check(&self, drains: bool, of_law: Option<f64>) -> Result<(), Error> {
-        require(self.porosity > 0.0 && self.porosity < 1.0, "porosity", self.porosity, "above 0 and below 1")?;
-        require(
-            of_law.is_none_or(|n| n == self.porosity),
-            "porosity of the water",
-            self.porosity,
-            "that of the solid's law",
-        )?;
-        let k = self.initial_conductivity();
-        require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;
-        require(k > 0.0 || !drains, "conductivity of a body that drains", k, "positive (m²/(Pa s))")?;
+    /// `drains`: whether water may leave.
+    pub(super) fn check(&self, drains: bool, bodies: &Bodies<D>) -> Result<(), Error> {
+        let (count, allowed) = (self.media.len(), "as many as there are bodies");
+        require(count == bodies.each.len(), "media of a body with water", count as f64, allowed)?;
+        for (medium, body) in self.media.iter().zip(&bodies.each) {
+            let n = medium.porosity;
+            require(n > 0.0 && n < 1.0, "porosity", n, "above 0 and below 1")?;
+            let same = body.law.porosity().is_none_or(|of_law| of_law == n);
+            require(same, "porosity of the water", n, "that of the solid's law")?;
+            let k = medium.initial_conductivity();
+            require(k >= 0.0, "conductivity", k, "at least 0 (m²/(Pa s))")?;
+            require(k > 0.0 || !drains, "conductivity of a body that drains", k, "positive (m²/(Pa s))")?;
+        }
         let Some(gravity) = &self.gravity else {
             return Ok(());
         };

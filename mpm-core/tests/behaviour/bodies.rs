@@ -7,6 +7,7 @@ use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Hencky, NeoHookean, NewtonianFluid};
 use mpm_core::memory::Memory;
+use mpm_core::simulation::Field;
 use mpm_core::stage::{BodyForce, End, Gravity, LocalDamping, Wall, WallKind, smooth_rise};
 use mpm_core::{
     Axis, Basis, Bodies, Error, Frame, Grid, Lattice, Law, Part, Particles, Scene, Side, Simulation, implicit,
@@ -14,6 +15,7 @@ use mpm_core::{
 use std::f64::consts::PI;
 
 mod touching;
+mod water;
 
 const H: f64 = 0.5;
 
@@ -185,10 +187,20 @@ fn a_remedy_averages_within_a_body_only() {
         let f = nalgebra::SMatrix::<f64, 2, 2>::new(1.0, 0.0, 0.0, 0.98);
         ([x[0], 4.0 * H - 0.98 * (4.0 * H - x[1])], f)
     });
-    let bodies = Bodies::new(law(), still).unwrap().and(law(), squeezed).unwrap();
+    let scene = || {
+        let bodies = Bodies::new(law(), still.clone()).unwrap().and(law(), squeezed.clone()).unwrap();
+        Scene::new(open_grid(H, 12), bodies)
+    };
+    type Splines = Lattice<2, 3, QuadraticBSpline>;
+    let mut of_steps = implicit::Solver::<2>::new::<Splines>(scene(), implicit::Settings::new(1.0)).unwrap();
+    let averaged = of_steps.field(Field::AveragedMeanStress);
+    let (stress, bodies) = (&of_steps.particles().stress, &of_steps.scene().bodies);
+    assert!(bodies.each[0].range().all(|k| averaged[k] == 0.0));
+    // The strain is uniform, and so is its average.
+    assert!(bodies.each[1].range().all(|k| (averaged[k] / stress[k].mean() - 1.0).abs() < 1e-12));
     let mut settings = of_law();
     settings.remedy = Box::new(Fbar::new(Form::Total));
-    let scene = Scene::new(open_grid(H, 12), bodies);
+    let scene = scene();
     let mut solver = Solver::<2, 3, QuadraticBSpline>::new(scene, settings).unwrap();
     let n = solver.particles().len();
     let mut field: Vec<f64> = (0..n).map(|p| solver.particles().jacobian[p]).collect();
@@ -214,6 +226,40 @@ fn a_body_without_remedy_keeps_its_own_jacobian() {
         bodies.totals_of(bodies.each[body].range()).log_jacobian_gap_max
     });
     assert!(gaps[0] > 1e-4 && gaps[1] < 1e-12, "{gaps:?}");
+}
+
+/// A soft column beside a stiff one that it does not touch settles as it does alone: a ghost penalty of the stiffest
+/// body's modulus would hold its loose rim.
+#[test]
+fn a_stiff_body_elsewhere_does_not_hold_a_soft_one() {
+    let (h, soft) = (0.1, Hencky::new(50.0, 0.25).unwrap());
+    let columns = || [[1, 5], [11, 15]].map(|[lo, hi]| block::<2>(h, 2, [lo, 0], [hi, 7]));
+    let axes = || [Axis::open(0.0, 16), Axis::bounded(0.05, 12, (Side::Wall, Side::Open))];
+    let lifted = |mut p: Particles<2>| {
+        p.position.iter_mut().chain(&mut p.reference).for_each(|x| x[1] += 0.05);
+        p
+    };
+    let settle = |bodies: Bodies<2>| {
+        let scene = Scene::new(Grid::new(h, axes()).unwrap(), bodies)
+            .load(BodyForce(Box::new(|_, _| [0.0, -0.1])))
+            .constrain(Wall::new(1, End::Lo, WallKind::Fixed));
+        let settings = implicit::Settings::new(1.0).stabilised(implicit::Stabilisation::Ghost(0.1));
+        let mut solver = implicit::Solver::<2>::new::<Lattice<2, 3, QuadraticBSpline>>(scene, settings).unwrap();
+        solver.step().unwrap();
+        let field = solver.field(Field::AveragedMeanStress);
+        let p = solver.particles();
+        let of_soft = (0..p.len()).filter(|k| p.reference[*k][0] < 0.8);
+        of_soft.map(|k| (p.id[k], p.position[k], field[k])).collect::<Vec<_>>()
+    };
+    let [left, right] = columns().map(lifted);
+    let alone = settle(Bodies::new(soft, left.clone()).unwrap());
+    let stiff = Hencky::new(5e4, 0.25).unwrap();
+    let beside = settle(Bodies::new(soft, left).unwrap().and(stiff, right).unwrap());
+    for ((_, a, s), (_, b, t)) in alone.iter().zip(&beside) {
+        // Newton's tolerance is one of all forces.
+        assert!((a[0] - b[0]).abs() < 1e-9 && (a[1] - b[1]).abs() < 1e-9, "{a:?} and {b:?}");
+        assert!((s - t).abs() < 1e-6 * s.abs().max(1.0), "{s} and {t}");
+    }
 }
 
 /// Waves in two bars of impedances Z = ρ c: amplitudes of velocity go on by 2 Z₁/(Z₁ + Z₂) and come back by

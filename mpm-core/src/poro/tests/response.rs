@@ -15,8 +15,16 @@ fn an_answer_is_pulled_back_to_the_start() {
     let law = porous();
     let state = law.initial_state();
     let row = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
-    let particle =
-        Particle { law: &law.into(), state: &row, water: &water, rate: VolumeRate::Exact, dt: 1.0, volume, jacobian };
+    let particle = Particle {
+        law: &law.into(),
+        state: &row,
+        medium: water.media[0],
+        gravity: water.gravity.as_ref(),
+        rate: VolumeRate::Exact,
+        dt: 1.0,
+        volume,
+        jacobian,
+    };
     let answer = particle.respond(&f, p, &slope);
 
     let (j, inverse) = (f.determinant(), f.try_inverse().unwrap());

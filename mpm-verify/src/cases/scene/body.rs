@@ -27,6 +27,11 @@ impl Form {
 }
 
 impl BodyForm {
+    /// Whether it has pores of its own.
+    fn has_pores(&self) -> bool {
+        self.porosity.is_some() || self.conductivity.is_some()
+    }
+
     /// Its name.
     pub(super) fn name(&self) -> &str {
         self.name.as_ref().map_or(FIRST, |name| &name.0)
@@ -35,8 +40,13 @@ impl BodyForm {
 
 /// Laws of the bodies after the first one, whose law phases may change.
 pub(super) fn other_laws(source: &Source, form: &Form) -> Result<Vec<SharedLaw>, Error> {
-    let of = |law: &Line<LawForm>| law_of(law.get_ref(), None).map_err(|e| source.at(law, e));
-    form.laws().skip(1).map(of).collect()
+    let water = form.water.as_ref().map(|water| water.get_ref().porosity);
+    let each = form.laws().skip(1).zip(&form.bodies);
+    let of = |(law, body): (&Line<LawForm>, &Line<BodyForm>)| {
+        let porosity = body.get_ref().porosity.or(water).map(|n| n.0);
+        law_of(law.get_ref(), porosity).map_err(|e| source.at(law, e))
+    };
+    each.map(of).collect()
 }
 
 /// That every body has what it needs, and nothing that acts on nothing or that the scheme can't do.
@@ -55,7 +65,8 @@ pub(super) fn check_bodies(source: &Source, form: &Form, scheme: Scheme) -> Resu
             (own.friction.is_some() && !several, "friction acts on nothing: there is one body"),
             (own.friction.is_some() && !explicit, "bodies that slide need an explicit scheme"),
             (own.remedy == Some(false) && !averages, "the scheme has no remedy that a body could be without"),
-            (several && matches!(scheme, Scheme::Poro(_)), "a scheme with water has one body"),
+            (own.has_pores() && form.water.is_none(), "porosity and conductivity act on nothing: there is no [water]"),
+            (k == 0 && own.has_pores(), "porosity and conductivity of [body] stand in [water]"),
             (several && averages && !explicit, "implicit schemes average over one body: remedy none is allowed"),
         ];
         if let Some((_, said)) = wrong.into_iter().find(|(is, _)| *is) {

@@ -169,6 +169,9 @@ pub(super) struct BodyForm {
     pub(super) remedy: Option<bool>,
     /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
     pub(super) friction: Option<NotNegative>,
+    /// Of its pores, where they are not those of `water`.
+    pub(super) porosity: Option<Share>,
+    pub(super) conductivity: Option<ConductivityForm>,
 }
 
 /// A part of the body. Particles stand at (k + ½) of their distance from zero, with whole numbers k.

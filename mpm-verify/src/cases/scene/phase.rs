@@ -66,8 +66,9 @@ pub(super) fn scheme(source: &Source, form: &Form) -> Result<Scheme, Error> {
             return Err(source.at(&form.solver, format!("{name} has no meaning with the scheme {scheme}")));
         }
     }
-    if form.water.is_some() && matches!(form.law.get_ref(), LawForm::NewtonianFluid { .. }) {
-        return Err(source.at(&form.law, "a newtonian-fluid has no pores: the law of a solid is allowed beside water"));
+    let fluid = form.laws().find(|law| matches!(law.get_ref(), LawForm::NewtonianFluid { .. }));
+    if let (Some(law), Some(_)) = (fluid, &form.water) {
+        return Err(source.at(law, "a newtonian-fluid has no pores: the law of a solid is allowed beside water"));
     }
     if form.water.is_some() != (kind == "poro") {
         let said = "water and a scheme of the kind poro go together: the one is there without the other";

@@ -352,11 +352,15 @@ impl<const D: usize> Setup<D> {
             allowed: "1 with a scheme of the kind poro",
         })?;
         let form = form.get_ref();
-        let conductivity = match form.conductivity {
+        let conductivity = |form: &ConductivityForm| match form {
             ConductivityForm::Constant { m2_pa_s } => Conductivity::Constant(m2_pa_s.0),
             ConductivityForm::KozenyCarman { m2_pa_s } => Conductivity::KozenyCarman(m2_pa_s.0),
         };
-        let mut water = Water::new(form.porosity.0, conductivity);
+        let mut water = Water::new(form.porosity.0, conductivity(&form.conductivity));
+        for own in self.form.bodies.iter().map(Line::get_ref) {
+            let porosity = own.porosity.unwrap_or(form.porosity);
+            water = water.and(porosity.0, conductivity(own.conductivity.as_ref().unwrap_or(&form.conductivity)));
+        }
         if let Some(region) = &form.drained {
             water = water.drained(holds(region));
         }

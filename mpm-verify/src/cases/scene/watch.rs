@@ -101,7 +101,7 @@ impl<const D: usize> Course<D> {
 /// Names of the columns, which live as long as the program: a scene is read once in it.
 fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) -> Vec<&'static str> {
     let named = |name: String| -> &'static str { Box::leak(name.into_boxed_str()) };
-    let [energy, force] = ["J", "N"].map(|unit| per_depth(unit, D));
+    let [energy, force, volume] = ["J", "N", "m³"].map(|unit| per_depth(unit, D));
     let mut all = vec![
         "time (s)",
         named(format!("kinetic_energy ({energy})")),
@@ -111,7 +111,7 @@ fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) ->
     match scheme {
         Scheme::Explicit(_) => {}
         Scheme::Implicit(_) => all.push("newton_iterations (-)"),
-        Scheme::Poro(_) => all.extend(["newton_iterations (-)", "outflow (m³)"]),
+        Scheme::Poro(_) => all.extend(["newton_iterations (-)", named(format!("outflow ({volume})"))]),
     }
     for name in parts {
         for axis in ["x", "y", "z"].into_iter().take(D) {

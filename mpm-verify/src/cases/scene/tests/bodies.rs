@@ -4,7 +4,11 @@ use super::*;
 
 /// Rows of a shipped scene by the names of its columns, and columns of its particles at their end.
 fn rows(file: &str, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
-    let scene = SceneFile::read(&shipped(file), 1.0, None).unwrap();
+    rows_of(&shipped(file), rows)
+}
+
+fn rows_of(path: &Path, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
+    let scene = SceneFile::read(path, 1.0, None).unwrap();
     let none = Parameters::new(&[], &[]).unwrap();
     let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
     let rows = (0..rows).map(|_| job.advance().unwrap()).collect();
@@ -69,6 +73,7 @@ fn what_bodies_cannot_be_is_named_with_its_line() {
         ("[3, 0]\nfriction", "[3, 0, 0]\nfriction", &["velocity_m_s has 3 numbers"]),
         (scheme, "quasi-static-gimp-none\"\ntime_step_s = 0.01", &["slide need an explicit scheme"]),
         (scheme, "gimp-none-flip\"\ncfl = 0.3\n#", &["nothing is wrong"]),
+        ("friction = 0.3", "porosity = 0.3", &["there is no [water]"]),
         ("particles_per_direction = 2\n", "", &["no particles_per_direction"]),
         ("particles_per_direction = 2", "particles_per_direction = 2\nremedy = false", &["nothing is wrong"]),
     ] {
@@ -91,4 +96,33 @@ fn what_bodies_cannot_be_is_named_with_its_line() {
         let said = SceneFile::read(&path, 1.0, None).map(drop).unwrap_err().to_string();
         assert!(said.contains(part) && said.contains("own.toml: line"), "{part} in: {said}");
     }
+}
+
+/// Terzaghi's column in two halves, of which the upper one has other pores.
+fn halves(upper: &str) -> String {
+    let text = std::fs::read_to_string(shipped("terzaghi.toml")).unwrap();
+    let lower = text.replace("to_m = [1] }", "to_m = [0.5] }");
+    let more = format!(
+        "[[bodies]]\nname = \"upper\"\ndensity_kg_m3 = 1000\n{upper}[[bodies.shapes]]\n\
+         box = {{ from_m = [0.5], to_m = [1] }}\n[bodies.law.hencky]\nyoung_modulus_pa = 1e7\npoisson_ratio = 0.25\n"
+    );
+    assert!(lower != text);
+    lower.replace("[water]", &format!("{more}[water]"))
+}
+
+#[test]
+fn layers_have_pores_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let drained = |upper: &str| {
+        let path = folder.path().join("own.toml");
+        std::fs::write(&path, halves(upper)).unwrap();
+        let rows = rows_of(&path, 32).0;
+        last(&rows, "outflow (m³)")
+    };
+    let text = shipped("terzaghi.toml");
+    let whole = last(&rows_of(&text, 32).0, "outflow (m³)");
+    assert!((drained("") / whole - 1.0).abs() < 1e-9, "{} of {whole}", drained(""));
+    // As long as the floor is not felt, 2 q √(κ t/(π M)) has gone out: half, if κ is a quarter. Pressure's cells are 0.2 m.
+    let tight = drained("conductivity.constant = { m2_pa_s = 2.5484199796126405e-10 }\n");
+    assert!((tight / whole - 0.5).abs() < 0.05, "{tight} of {whole}");
 }
