@@ -58,6 +58,10 @@ pub(crate) const SLIDE: Runs =
 
 /// Discs that collide.
 pub(crate) const DISCS: Runs = &["discs --scheme midpoint-gimp-none --set step_factor=100"];
+/// Discs with velocities of their own, that collide and that pass.
+pub(crate) const TOUCHING: Runs = &["discs --scheme gimp-none-flip --set contact=bodies --set speed=0.1"];
+pub(crate) const PASSING: Runs =
+    &["discs --scheme bspline2-none-flip --set contact=bodies --set offset=0.5 --set speed=0.1"];
 
 /// The first step of a column of solid and water.
 pub(crate) const COLUMN: Runs =

@@ -3,7 +3,7 @@
 use super::Fault;
 use crate::runs::*;
 
-pub(crate) const EXPLICIT: [Fault; 28] = [
+pub(crate) const EXPLICIT: [Fault; 30] = [
     Fault {
         name: "P2G drops the stress along the last axis",
         file: "explicit/transfer/kernel.rs",
@@ -200,5 +200,19 @@ pub(crate) const EXPLICIT: [Fault; 28] = [
         sound: "opposing * v.abs()",
         broken: "0.99 * opposing * v.abs()",
         seen_by: &[(DAMPED, "damping-is-booked")],
+    },
+    Fault {
+        name: "one body takes a hundredth less than the other gives",
+        file: "explicit/between.rs",
+        sound: "sign * impulse[k] / mass",
+        broken: "f64::max(sign, -0.99) * impulse[k] / mass",
+        seen_by: &[(TOUCHING, "momentum")],
+    },
+    Fault {
+        name: "bodies meet before their surfaces do",
+        file: "explicit/between.rs",
+        sound: "approach - gap / dt",
+        broken: "approach - 0.0 * gap / dt",
+        seen_by: &[(PASSING, "free-flight")],
     },
 ];
