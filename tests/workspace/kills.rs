@@ -15,10 +15,11 @@ fn every_seeded_fault_is_seen_by_a_check_that_there_is() {
     let stored: BTreeSet<&str> = kills.0.keys().map(String::as_str).collect();
     assert_eq!(stored, seeded, "run `just mutants`");
     for fault in faults() {
+        let source = fs::read_to_string(workspace().join("mpm-core/src").join(fault.file)).unwrap();
+        assert_eq!(source.matches(fault.sound).count(), 1, "{}: what it breaks has changed", fault.name);
         let seers = &kills.0[fault.name];
         for (runs, check) in fault.seen_by {
-            let case = runs[0].split_whitespace().next().unwrap().to_owned();
-            let named = (case, (*check).to_owned());
+            let named = (runs[0].split_whitespace().next().unwrap().to_owned(), (*check).to_owned());
             assert!(seers.contains(&named), "{}: {named:?}", fault.name);
         }
         for (case, check) in seers {

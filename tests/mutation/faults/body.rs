@@ -97,9 +97,9 @@ pub(crate) const BODY: [Fault; 21] = [
     },
     Fault {
         name: "a stage begins with ground that was never loaded",
-        file: "body.rs",
+        file: "bodies.rs",
         sound: "self.replace((particles, states), check)",
-        broken: "self.replace((particles, self.states.clone()), check)",
+        broken: "self.replace((particles, self.each.iter().map(|body| body.states.clone()).collect()), check)",
         seen_by: &[(CUT, "flow")],
     },
     Fault {
@@ -118,16 +118,16 @@ pub(crate) const BODY: [Fault; 21] = [
     },
     Fault {
         name: "a body that is handed on has lost its stresses",
-        file: "body.rs",
-        sound: "(self.particles, self.states) = (particles, states)",
-        broken: "(self.particles, self.states) = (Particles { stress: self.particles.stress.clone(), ..particles }, states)",
+        file: "bodies.rs",
+        sound: "self.particles = particles",
+        broken: "self.particles = Particles { stress: self.particles.stress.clone(), ..particles }",
         seen_by: &[(SLIPPERY, "taken-over")],
     },
     Fault {
         name: "sorting halves the mass of the first particle",
         file: "particles.rs",
-        sound: "permute(&mut self.mass, order, 1)",
-        broken: "{ permute(&mut self.mass, order, 1); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5); }",
+        sound: "columns!(permute_each);",
+        broken: "columns!(permute_each); self.mass.iter_mut().take(1).for_each(|m| *m *= 0.5);",
         seen_by: &[(DAM, "mass")],
     },
     Fault {

@@ -71,8 +71,8 @@ pub(crate) const EXPLICIT: [Fault; 30] = [
     Fault {
         name: "the increment of the volume is averaged twice",
         file: "explicit/remedy/fbar.rs",
-        sound: "Form::Rate | Form::Bbar => average.average(particles, averaged)",
-        broken: "Form::Rate | Form::Bbar => for _ in 0..2 { average.average(particles, averaged) }",
+        sound: "average.average(particles, averaged)",
+        broken: "for _ in 0..2 { average.average(particles, averaged) }",
         seen_by: &[(BAR, "averaging-softens")],
     },
     Fault {

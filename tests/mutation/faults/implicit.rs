@@ -91,8 +91,8 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
     Fault {
         name: "pores don't change the conductivity",
         file: "poro/response.rs",
-        sound: "self.water.conductivity.at(number(1.0) - solid)",
-        broken: "self.water.conductivity.at(number(self.water.porosity))",
+        sound: "self.medium.conductivity.at(number(1.0) - solid)",
+        broken: "self.medium.conductivity.at(number(self.medium.porosity))",
         seen_by: &[(SETTLING, "order-space"), (SOAKED, "order-space")],
     },
     Fault {
@@ -113,7 +113,7 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
         name: "the water's pressure is one of the undeformed configuration",
         file: "poro/step.rs",
         sound: "self.particle(k).respond(&embed(f), *pressure, slope)",
-        broken: "self.particle(k).respond(&embed(f), *pressure / self.body.particles.jacobian[k], slope)",
+        broken: "self.particle(k).respond(&embed(f), *pressure / self.bodies.particles.jacobian[k], slope)",
         seen_by: &[(SETTLING, "order-space")],
     },
     Fault {
