@@ -31,8 +31,11 @@ const EARLY_SLIDE: f64 = 1.5;
 const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
 const THROWS: &str =
     "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
+const FLOWS: &str = "ground whose weight is tens of times its strength flows off the end of the floor, as water would";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
+/// γ H over the undrained shear strength from which ground flows like water: as in the case `excavation`.
+const SPLASHING: f64 = 40.0;
 /// Share of the ground that has moved from which on the slope has failed.
 const FAILED: f64 = 0.01;
 
@@ -42,7 +45,8 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     let printed = record.remedy() == FbarRecursive && record.basis() == Gimp;
     let flat = record.discretisation.dim == 2 && record.discretisation.h <= h;
     let far = |c: &Setup<Landslide>| c.reduction >= reduction && c.duration >= time;
-    (printed && flat && Setup::holds(record, far)).then_some(THROWS)
+    let thrown = (printed && flat && Setup::holds(record, far)).then_some(THROWS);
+    thrown.or(Setup::holds(record, Setup::<Landslide>::flows_away).then_some(FLOWS))
 }
 
 /// Known motions of a ground under its weight.
@@ -60,6 +64,13 @@ impl Setup<Landslide> {
         let shear_modulus = 0.5 * self.young_modulus / (1.0 + self.poisson_ratio);
         let lost = if self.release > 0.0 { 0.0 } else { fall.powi(2) / (4.0 * shear_modulus) };
         lost / (self.density * GRAVITY * self.height / 3.0)
+    }
+
+    /// Whether ground that hardly resists reaches the end of the floor as water does, at Ritter's 2 √(g H).
+    fn flows_away(&self) -> bool {
+        let resists = self.peak_strength / self.reduction / 2f64.sqrt();
+        let front = 2.0 * (GRAVITY * self.height).sqrt() * self.duration;
+        self.density * GRAVITY * self.height > SPLASHING * resists && front > self.floor
     }
 
     /// Particles of the section; NaN where their number is not known: row j from the base holds columns i with
