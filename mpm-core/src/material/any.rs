@@ -1,8 +1,8 @@
 //! A law as bodies hold it: chosen at run time, with the states of its particles as rows of numbers.
 
 use super::{
-    CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, Law, NeoHookean, NewtonianFluid, State,
-    StateOf, Viscous,
+    CamClay, DruckerPrager, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, Law, NeoHookean,
+    NewtonianFluid, State, StateOf, Viscous,
 };
 use crate::number::{Dual, EIGHT, Eight, Real};
 use crate::space::embed_entries;
@@ -87,7 +87,17 @@ macro_rules! shared {
     )*};
 }
 
-shared!(CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, NeoHookean, NewtonianFluid);
+shared!(
+    CamClay,
+    DruckerPrager,
+    Hencky,
+    HenckyJ2,
+    Hypoelastic,
+    HypoelasticJ2,
+    ImprovedHencky,
+    NeoHookean,
+    NewtonianFluid
+);
 shared!(Viscous<NeoHookean>);
 
 /// The state in a row, as a constant.

@@ -14,11 +14,8 @@
 //! critical state is at p = ρ, q = M p. `docs/cam-clay.md` derives it.
 
 mod flow;
-mod state;
 
-pub use state::CamClayState;
-
-use super::{ImprovedHencky, Law, Response, StateOf};
+use super::{ImprovedHencky, Law, Response, StateOf, VolumetricState};
 use crate::error::{Error, positive, require};
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
@@ -117,7 +114,7 @@ fn bisect([mut low, mut high]: [f64; 2], below: impl Fn(f64) -> bool) -> [f64; 2
 }
 
 impl Law for CamClay {
-    type State = CamClayState;
+    type State = VolumetricState;
 
     /// p_c of a step's end is in what the step dissipates, and with α or γ < 1 flow is not normal to the surface.
     const CONSERVATIVE: bool = false;
@@ -126,9 +123,9 @@ impl Law for CamClay {
         Self { elasticity: self.elasticity.in_units(stress), preconsolidation: stress * self.preconsolidation, ..*self }
     }
 
-    fn initial_state(&self) -> CamClayState {
+    fn initial_state(&self) -> VolumetricState {
         let size = (2.0 / 3.0 * self.initial_volume).exp();
-        CamClayState {
+        VolumetricState {
             elastic: SymmetricTensor::identity().scale_add_identity(size, 0.0),
             plastic_volume: -self.initial_volume,
             plastic_strain: 0.0,
@@ -149,7 +146,7 @@ impl Law for CamClay {
             shear: number(1.5_f64.sqrt()) * shear_modulus * direction.norm(),
             preconsolidation: self.preconsolidation_at(state.plastic_volume),
         };
-        let mut after = CamClayState { elastic, ..*state };
+        let mut after = VolumetricState { elastic, ..*state };
         let (mut remains, mut elastic_volume) = (number(1.0), volume);
         if let Some(end) = self.flow(&trial) {
             (elastic_volume, remains) = (end.volume, end.shear_remains);
@@ -167,12 +164,12 @@ impl Law for CamClay {
         (stress, after)
     }
 
-    fn plastic_strain(&self, state: &CamClayState) -> f64 {
+    fn plastic_strain(&self, state: &VolumetricState) -> f64 {
         state.plastic_strain
     }
 
     /// The elastic energy, and what the work of ρ has stored: ½ γ ψ (p_c − p_c of undeformed material).
-    fn energy(&self, state: &CamClayState) -> f64 {
+    fn energy(&self, state: &VolumetricState) -> f64 {
         let hardened = self.preconsolidation_at(state.plastic_volume) - self.preconsolidation;
         self.elasticity.energy(&state.elastic) + 0.5 * self.gamma * self.plastic_compressibility * hardened
     }

@@ -2,6 +2,7 @@
 
 mod any;
 mod cam_clay;
+mod drucker_prager;
 mod hencky;
 mod hencky_j2;
 mod hypoelastic;
@@ -11,9 +12,11 @@ mod neo_hookean;
 mod newtonian_fluid;
 mod strength;
 mod viscous;
+mod volumetric_state;
 
 pub use any::{Answers, AnyLaw, SharedLaw, shared};
-pub use cam_clay::{CamClay, CamClayState};
+pub use cam_clay::CamClay;
+pub use drucker_prager::{DruckerPrager, Matched};
 pub use hencky::Hencky;
 pub use hencky_j2::HenckyJ2;
 pub use hypoelastic::{Hypoelastic, JaumannUpdate};
@@ -23,6 +26,7 @@ pub use neo_hookean::NeoHookean;
 pub use newtonian_fluid::NewtonianFluid;
 pub use strength::{ElastoplasticState, Strength};
 pub use viscous::Viscous;
+pub use volumetric_state::VolumetricState;
 
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;

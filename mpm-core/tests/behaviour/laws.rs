@@ -1,8 +1,8 @@
 //! The properties that every law must have.
 
 use mpm_core::material::{
-    Answers, CamClay, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, JaumannUpdate, Law, NeoHookean,
-    NewtonianFluid, State, Strength, Viscous, shared,
+    Answers, CamClay, DruckerPrager, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, JaumannUpdate, Law,
+    Matched, NeoHookean, NewtonianFluid, State, Strength, Viscous, shared,
 };
 use mpm_core::monitor::Accumulated;
 use mpm_core::number::Dual;
@@ -10,6 +10,7 @@ use mpm_core::{Bodies, Particles, SymmetricTensor};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
+mod drucker_prager;
 mod tangent;
 
 /// Deformation gradients with stretches near one and a positive determinant.
@@ -232,6 +233,11 @@ every_law_must!(nearly_incompressible_neo_hookean, NeoHookean::new(70.0, 0.499).
 
 // Flow is not elastic: what it does is tested beside the law.
 every_law_must!(strong_hencky_solid, HenckyJ2::new(70.0, 0.4, Strength::perfect(1e9).unwrap()).unwrap());
+
+every_law_must!(
+    strong_ground_with_friction,
+    DruckerPrager::new((70.0, 0.4), 1e9, [0.5, 0.3], Matched::Compression).unwrap()
+);
 
 every_law_must!(hencky_solid, Hencky::new(70.0, 0.4).unwrap());
 

@@ -28,7 +28,7 @@ fn shapes() -> [(f64, f64); 4] {
 }
 
 /// p, q, p_c of a state.
-fn stresses(law: &CamClay, state: &CamClayState) -> [f64; 3] {
+fn stresses(law: &CamClay, state: &VolumetricState) -> [f64; 3] {
     let logarithm = state.elastic.ln();
     let [_, mean, _] = law.elasticity.volumetric(0.5 * logarithm.trace());
     let q = 1.5_f64.sqrt() * law.elasticity.shear_modulus * logarithm.deviator().norm();
@@ -60,7 +60,7 @@ fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
 }
 
 /// The plastic strain of a step, tension positive: what the elastic trial strain is more than the elastic strain.
-fn plastic_step(before: &CamClayState, increment: &Matrix3<f64>, after: &CamClayState) -> Matrix3<f64> {
+fn plastic_step(before: &VolumetricState, increment: &Matrix3<f64>, after: &VolumetricState) -> Matrix3<f64> {
     let trial = before.elastic.push_forward(increment).ln().to_matrix();
     (trial - after.elastic.ln().to_matrix()) * 0.5
 }
@@ -111,7 +111,7 @@ proptest! {
                 let dissipated = (p - rho) * compression + q * shear;
                 let by_rate = ((a * compression).powi(2) + (b * shear).powi(2)).sqrt();
                 prop_assert!((dissipated - by_rate).abs() < (1e-12 / grows + rounding) * by_rate);
-                let elastic = CamClayState {
+                let elastic = VolumetricState {
                     elastic: before.elastic.push_forward(increment),
                     ..before
                 };

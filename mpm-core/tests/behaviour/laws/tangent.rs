@@ -184,6 +184,20 @@ proptest! {
     }
 }
 
+/// Ground that yields as its pressure says, or is pulled beyond its tip.
+fn frictional() -> [DruckerPrager; 3] {
+    [[0.5, 0.5], [0.5, 0.1], [0.8, 0.0]]
+        .map(|angles| DruckerPrager::new((100.0, 0.3), 0.3, angles, Matched::PlaneStrain).unwrap())
+}
+
+#[test]
+fn of_friction_along_axes_and_in_planes() {
+    for law in frictional() {
+        let flows = |f: &&Matrix3<f64>| plastic(&law, &Matrix3::identity(), f);
+        assert!(special().iter().filter(flows).count() >= 4);
+    }
+}
+
 /// Clay that yields and hardens or softens at strains of a few parts in a hundred.
 fn clays() -> [CamClay; 3] {
     let elasticity = ImprovedHencky::new(70.0, 40.0, 0.9).unwrap();
@@ -203,6 +217,18 @@ fn of_clay_at_rest() {
 }
 
 proptest! {
+    #[test]
+    fn of_friction(f in deformations(), g in deformations()) {
+        for law in frictional() {
+            // Where the return changes from the cone to its tip, slopes jump: deviators tell.
+            let before = deform(&law, &f).1;
+            let shear = |scale: f64| law.response(&(g * scale), DT, &before).0.deviator().norm();
+            let [less, more] = [shear(1.0 - 4.0 * STEP), shear(1.0 + 4.0 * STEP)];
+            prop_assume!((less > 0.1 && more > 0.1) || (less < 1e-9 && more < 1e-9));
+            prop_assume!(plastic(&law, &f, &g));
+        }
+    }
+
     #[test]
     fn of_clay_within_its_surface(f in deformations(), g in deformations()) {
         elastic(&strong_clay(), &f, &g);

@@ -136,7 +136,7 @@ fn undrained_shear_strain_converges_with_first_order() {
 
 /// Shortened along an axis by `step` while the lateral Kirchhoff stress stays −`lateral`: the lateral strain by
 /// secants.
-fn drained(law: &CamClay, state: &CamClayState, lateral: f64, step: f64) -> (f64, CamClayState) {
+fn drained(law: &CamClay, state: &VolumetricState, lateral: f64, step: f64) -> (f64, VolumetricState) {
     let at = |side: f64| {
         let after = law.response(&stretches([-step, side, side]), 1.0, state).1;
         let [p, q, _] = stresses(law, &after);

@@ -1,12 +1,12 @@
-//! State of a particle of clay.
+//! State of a particle of a law whose flow changes the volume.
 
-use crate::material::State;
+use super::State;
 use crate::number::Real;
 use crate::tensor::SymmetricTensor;
 
-/// The state of [`CamClay`](super::CamClay).
+/// Elastic strain, and what flow has changed the volume by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CamClayState<T = f64> {
+pub struct VolumetricState<T = f64> {
     /// The elastic left Cauchy–Green tensor b_e.
     pub elastic: SymmetricTensor<T>,
     /// ln J_p = ln J − ½ ln det b_e, the plastic volume strain, extension positive.
@@ -15,17 +15,17 @@ pub struct CamClayState<T = f64> {
     pub plastic_strain: T,
 }
 
-impl State for CamClayState {
+impl State for VolumetricState {
     const NUMBERS: usize = 8;
-    type Of<T: Real> = CamClayState<T>;
+    type Of<T: Real> = VolumetricState<T>;
 
     #[inline(always)]
-    fn read<T: Real>(of: impl Fn(usize) -> T) -> CamClayState<T> {
-        CamClayState { plastic_volume: of(6), plastic_strain: of(7), elastic: SymmetricTensor::read(of) }
+    fn read<T: Real>(of: impl Fn(usize) -> T) -> VolumetricState<T> {
+        VolumetricState { plastic_volume: of(6), plastic_strain: of(7), elastic: SymmetricTensor::read(of) }
     }
 
     #[inline(always)]
-    fn write<T: Real>(of: &CamClayState<T>, mut put: impl FnMut(usize, &T)) {
+    fn write<T: Real>(of: &VolumetricState<T>, mut put: impl FnMut(usize, &T)) {
         SymmetricTensor::write(&of.elastic, &mut put);
         put(6, &of.plastic_volume);
         put(7, &of.plastic_strain);
