@@ -3,7 +3,7 @@
 use crate::eights::{block, entries, fetch, fetch_rows, matrix_entries, numbers};
 use crate::error::{Error, Fault, require};
 use crate::frame::Frame;
-use crate::material::{AnyLaw, SharedLaw};
+use crate::material::{AnyLaw, SharedLaw, strain_under};
 use crate::memory::{MemoryError, Saved};
 use crate::monitor::{Accumulated, Totals};
 use crate::number::{EIGHT, Eight};
@@ -23,6 +23,8 @@ pub struct Body {
     /// Coulomb's coefficient μ with which it slides on other bodies, of a body that has a velocity field of its own; a body
     /// that sticks to the others has none.
     pub slides: Option<f64>,
+    /// Whether it begins under a stress that is not that of its deformation.
+    stressed: bool,
     /// Its particles, by place in the columns.
     range: Range<usize>,
     /// The rows of their states.
@@ -47,6 +49,17 @@ impl Body {
     pub(crate) fn state(&self, p: usize) -> &[f64] {
         let (n, k) = (self.law.numbers(), p - self.range.start);
         &self.states[k * n..(k + 1) * n]
+    }
+
+    /// Gives its particles the states that their stresses are of.
+    fn take_stress<const D: usize>(&mut self, particles: &Particles<D>) -> Result<(), Error> {
+        self.stressed = true;
+        for (p, row) in self.range.clone().zip(self.states.chunks_exact_mut(self.law.numbers())) {
+            let (what, allowed) = ("stress σ_xx at the start", "one that the law has without flow (Pa)");
+            let beyond = Error::Input { what, value: particles.stress[p].xx, allowed };
+            self.law.at_rest(&strain_under(self.law.as_ref(), &particles.stress[p]).ok_or(beyond)?, row);
+        }
+        Ok(())
     }
 
     /// Least density of the undeformed material (kg/m³).
@@ -103,6 +116,22 @@ impl<const D: usize> Bodies<D> {
         self
     }
 
+    /// The same bodies, of which the last one begins under a Cauchy stress (Pa), a function of the place (m): ground under
+    /// its weight. Places and volumes stay those of its particles; its states are those of the elastic strain that the law
+    /// has this stress at.
+    ///
+    /// # Errors
+    /// A stress that the law has at no strain without flow.
+    pub fn under(mut self, stress: impl Fn(&[f64; D]) -> SymmetricTensor) -> Result<Self, Error> {
+        if let Some(body) = self.each.last_mut() {
+            for k in body.range() {
+                self.particles.stress[k] = stress(&self.particles.position[k]);
+            }
+            body.take_stress(&self.particles)?;
+        }
+        Ok(self)
+    }
+
     /// With a body of `law` whose particles stand in a `range`.
     fn with(mut self, law: SharedLaw, range: Range<usize>) -> Result<Self, Error> {
         let (p, n) = (&mut self.particles, law.numbers());
@@ -114,7 +143,7 @@ impl<const D: usize> Bodies<D> {
             (p.jacobian[k], p.stress[k]) = (j, law.at_rest(&space::embed(f), row));
             p.volume[k] = j * p.reference_volume[k];
         }
-        self.each.push(Body { law, averages: true, slides: None, range, states });
+        self.each.push(Body { law, averages: true, slides: None, stressed: false, range, states });
         Ok(self)
     }
 
@@ -147,8 +176,14 @@ impl<const D: usize> Bodies<D> {
         for body in &self.each {
             seen = seen.with(body.law.in_units(frame.scale(1, 0)), body.range())?;
         }
-        for (seen, body) in seen.each.iter_mut().zip(&self.each) {
-            (seen.averages, seen.slides) = (body.averages, body.slides);
+        for (own, body) in seen.each.iter_mut().zip(&self.each) {
+            (own.averages, own.slides) = (body.averages, body.slides);
+            if body.stressed {
+                for k in body.range() {
+                    seen.particles.stress[k] = frame.stress(&self.particles.stress[k]);
+                }
+                own.take_stress(&seen.particles)?;
+            }
         }
         Ok(seen)
     }

@@ -124,6 +124,15 @@ impl<const D: usize> Frame<D> {
         })
     }
 
+    /// A stress of the scene (Pa) as the frame has it. Axes beyond the dimension stay.
+    pub fn stress(&self, of_scene: &SymmetricTensor) -> SymmetricTensor {
+        let of = |i: usize, j: usize| {
+            let [(a, s), (b, t)] = [i, j].map(|k| self.axes.get(k).copied().unwrap_or((k, 1.0)));
+            s * t * self.stress * of_scene.get(a, b)
+        };
+        SymmetricTensor { xx: of(0, 0), yy: of(1, 1), zz: of(2, 2), xy: of(0, 1), yz: of(1, 2), xz: of(0, 2) }
+    }
+
     /// A stress of the frame as the scene (Pa) has it. Axes beyond the dimension stay.
     pub fn stress_of_scene(&self, stress: &SymmetricTensor) -> SymmetricTensor {
         let of = |a: usize, b: usize| {

@@ -108,6 +108,3 @@ pub trait Basis<const S: usize>: Send + Sync + Sized + 'static {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -365,6 +365,3 @@ impl<T: Real> SymmetricTensor<T> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -14,6 +14,7 @@ use mpm_core::{
 };
 use std::f64::consts::PI;
 
+mod stressed;
 mod touching;
 mod water;
 

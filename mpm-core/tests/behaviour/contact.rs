@@ -1,5 +1,7 @@
 //! Contact with rigid bodies: barrier, friction, reactions, the time step.
 
+mod barrier;
+mod face;
 mod friction;
 
 use crate::scenes::with_threads;

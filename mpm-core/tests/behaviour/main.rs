@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test fails by panicking")]
 
 mod averages;
+mod basis;
 mod bodies;
 mod contact;
 mod execution;
@@ -14,5 +15,6 @@ mod modes;
 mod rigid_nodes;
 mod scenes;
 mod solver;
+mod tensors;
 mod transfers;
 mod walls;

@@ -1,5 +1,8 @@
-use super::*;
-use crate::grid::Side;
+//! What every basis must have.
+
+use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::number::{EIGHT, Eight, Real};
+use mpm_core::{Axis, Side};
 use proptest::prelude::*;
 
 /// Tolerance of an identity between sums of a few weights of order one.
