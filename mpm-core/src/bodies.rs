@@ -116,16 +116,16 @@ impl<const D: usize> Bodies<D> {
         self
     }
 
-    /// The same bodies, of which the last one begins under a Cauchy stress (Pa), a function of the place (m): ground under
-    /// its weight. Places and volumes stay those of its particles; its states are those of the elastic strain that the law
+    /// The same bodies, of which the last one begins under a Cauchy stress (Pa), a function of its particle's number and
+    /// place (m): ground under its weight. Places and volumes stay those of its particles; its states are those of the elastic strain that the law
     /// has this stress at.
     ///
     /// # Errors
     /// A stress that the law has at no strain without flow.
-    pub fn under(mut self, stress: impl Fn(&[f64; D]) -> SymmetricTensor) -> Result<Self, Error> {
+    pub fn under(mut self, stress: impl Fn(usize, &[f64; D]) -> SymmetricTensor) -> Result<Self, Error> {
         if let Some(body) = self.each.last_mut() {
-            for k in body.range() {
-                self.particles.stress[k] = stress(&self.particles.position[k]);
+            for (number, k) in body.range().enumerate() {
+                self.particles.stress[k] = stress(number, &self.particles.position[k]);
             }
             body.take_stress(&self.particles)?;
         }

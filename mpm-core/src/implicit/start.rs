@@ -47,7 +47,7 @@ impl<const D: usize> Solver<D> {
             laws().all(|law| law.conservative()) || !averages,
             "variational F-bar with a law without a potential",
             1.0,
-            "remedy none: the law has a rate of stress or a viscosity",
+            "remedy none: the law has a rate of stress, a viscosity or friction",
         )?;
         functions.offers(settings.stabilisation)?;
         let moduli: Vec<Moduli> = laws().map(|law| moduli_of(law.as_ref(), settings.dt)).collect();

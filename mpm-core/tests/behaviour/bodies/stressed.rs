@@ -16,7 +16,7 @@ fn geostatic(x: &[f64; 2], k0: f64) -> SymmetricTensor {
 
 fn ground<L: Into<mpm_core::material::SharedLaw>>(law: L, k0: f64) -> Result<Scene<2>, Error> {
     let soil = block::<2>(H, 2, [0, 0], [8, 8]);
-    let bodies = Bodies::new(law, soil)?.under(|x| geostatic(x, k0))?;
+    let bodies = Bodies::new(law, soil)?.under(|_, x| geostatic(x, k0))?;
     let axes = [Axis::walls(0.0, 8), Axis::bounded(0.0, 11, (Side::Wall, Side::Open))];
     let scene = Scene::new(Grid::new(H, axes)?, bodies).load(Gravity(Box::new(|_| [0.0, -GRAVITY])));
     let wall = |axis, end| Wall::new(axis, end, WallKind::Roller);

@@ -20,8 +20,8 @@ const ROUNDING: f64 = 1e-9;
 const GROWN_ROUNDING: f64 = 1e-4;
 /// Relative difference of the settlement at rest from plane strain: of F̄, which scales three directions there and two here.
 const OTHER_SCALING: f64 = 0.02;
-/// Length of the crest over the height from which on the back wall feels little of the face.
-const LONG_CREST: f64 = 2.0;
+/// Distance of the face's middle from the back wall, over the height, from which on that feels little of the face.
+const LONG_CREST: f64 = 2.5;
 /// Up to this reduction, the paper's, no band has formed until this time (s).
 const PAPERS_REDUCTION: f64 = 1.65;
 const EARLY: f64 = 0.5;
@@ -101,7 +101,8 @@ impl Setup<Landslide> {
 
     /// Whether the face is felt at the back wall.
     fn feels_the_face(&self) -> bool {
-        self.crest < LONG_CREST * self.height
+        let middle = self.crest + 0.5 * self.height / self.face_angle.to_radians().tan();
+        middle < (1.0 - 1e-9) * LONG_CREST * self.height
     }
 
     /// The reason why rest is not judged.

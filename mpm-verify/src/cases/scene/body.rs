@@ -66,6 +66,7 @@ pub(super) fn check_bodies(source: &Source, form: &Form, scheme: Scheme) -> Resu
             (own.friction.is_some() && !explicit, "bodies that slide need an explicit scheme"),
             (own.remedy == Some(false) && !averages, "the scheme has no remedy that a body could be without"),
             (own.has_pores() && form.water.is_none(), "porosity and conductivity act on nothing: there is no [water]"),
+            (own.k0.is_some() && form.water.is_some(), "k0 is of ground without [water]"),
             (k == 0 && own.has_pores(), "porosity and conductivity of [body] stand in [water]"),
             (several && averages && !explicit, "implicit schemes average over one body: remedy none is allowed"),
         ];

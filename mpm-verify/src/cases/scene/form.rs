@@ -169,6 +169,8 @@ pub(super) struct BodyForm {
     pub(super) remedy: Option<bool>,
     /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
     pub(super) friction: Option<NotNegative>,
+    /// Horizontal over vertical stress at the start, of ground under its weight; none of a body without stress.
+    pub(super) k0: Option<NotNegative>,
     /// Of its pores, where they are not those of `water`.
     pub(super) porosity: Option<Share>,
     pub(super) conductivity: Option<ConductivityForm>,
@@ -204,6 +206,18 @@ pub(super) enum LawForm {
         poisson_ratio: Finite,
         strength: StrengthForm,
     },
+    DruckerPrager {
+        young_modulus_pa: Finite,
+        poisson_ratio: Finite,
+        cohesion_pa: Finite,
+        friction_deg: Finite,
+        /// Zero.
+        #[serde(default)]
+        dilation_deg: NotNegative,
+        /// Plane strain.
+        #[serde(default)]
+        matched: MatchedForm,
+    },
     NewtonianFluid {
         bulk_modulus_pa: Finite,
         viscosity_pa_s: Finite,
@@ -223,6 +237,16 @@ pub(super) enum LawForm {
         alpha: Option<Finite>,
         gamma: Option<Finite>,
     },
+}
+
+/// Where a cone has the limit loads of Mohr and Coulomb's law.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum MatchedForm {
+    #[default]
+    PlaneStrain,
+    Compression,
+    Extension,
 }
 
 /// A strength of von Mises' law: of undrained shear in plane strain, or as ‖s‖.

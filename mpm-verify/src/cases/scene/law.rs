@@ -1,9 +1,11 @@
 //! The laws that a scene file can name.
 
 use super::fault::{Line, Source};
-use super::form::{Form, LawForm, StrengthForm};
+use super::form::{Form, LawForm, MatchedForm, StrengthForm};
 use crate::error::Error;
-use mpm_core::material::{CamClay, Hencky, HenckyJ2, ImprovedHencky, NeoHookean, NewtonianFluid, SharedLaw, Strength};
+use mpm_core::material::{
+    CamClay, DruckerPrager, Hencky, HenckyJ2, ImprovedHencky, Matched, NeoHookean, NewtonianFluid, SharedLaw, Strength,
+};
 
 /// The law of a form, in a body of the given porosity.
 pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw, mpm_core::Error> {
@@ -17,6 +19,22 @@ pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw,
         LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu } => Hencky::new(e.0, nu.0)?.into(),
         LawForm::HenckyJ2 { young_modulus_pa: e, poisson_ratio: nu, strength } => {
             HenckyJ2::new(e.0, nu.0, strength_of(strength)?)?.into()
+        }
+        LawForm::DruckerPrager {
+            young_modulus_pa,
+            poisson_ratio,
+            cohesion_pa,
+            friction_deg,
+            dilation_deg,
+            matched,
+        } => {
+            let matched = match matched {
+                MatchedForm::PlaneStrain => Matched::PlaneStrain,
+                MatchedForm::Compression => Matched::Compression,
+                MatchedForm::Extension => Matched::Extension,
+            };
+            let angles = [friction_deg.0, dilation_deg.0].map(f64::to_radians);
+            DruckerPrager::new((young_modulus_pa.0, poisson_ratio.0), cohesion_pa.0, angles, matched)?.into()
         }
         LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => NewtonianFluid::new(k.0, mu.0)?.into(),
         LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => soaked(k.0, g.0)?.into(),
@@ -50,12 +68,20 @@ impl Source {
         let mut form: Form = self.parse()?;
         if self.weaker != 1.0 {
             let place = form.law.span();
-            if !form.laws().any(|law| matches!(law.get_ref(), LawForm::HenckyJ2 { .. })) {
-                return Err(self.fault(&place, "no strength to be divided: hencky-j2 has one"));
+            let strong =
+                |law: &Line<LawForm>| matches!(law.get_ref(), LawForm::HenckyJ2 { .. } | LawForm::DruckerPrager { .. });
+            if !form.laws().any(strong) {
+                return Err(self.fault(&place, "no strength to be divided: hencky-j2 and drucker-prager have one"));
             }
             let phases = form.phases.iter_mut().filter_map(|phase| phase.as_mut().law.as_mut());
             let others = form.bodies.iter_mut().filter_map(|body| body.as_mut().law.as_mut()).map(Line::as_mut);
             for law in phases.chain([form.law.as_mut()]).chain(others) {
+                if let LawForm::DruckerPrager { cohesion_pa, friction_deg, dilation_deg, .. } = law {
+                    cohesion_pa.0 /= self.weaker;
+                    friction_deg.0 = (friction_deg.0.to_radians().tan() / self.weaker).atan().to_degrees();
+                    // Ground that flows with a smaller angle of friction does not dilate more than by that.
+                    dilation_deg.0 = dilation_deg.0.min(friction_deg.0);
+                }
                 let LawForm::HenckyJ2 { strength, .. } = law else { continue };
                 match strength {
                     StrengthForm::Undrained { shear_strength_pa: peak } | StrengthForm::Perfect { norm_pa: peak } => {

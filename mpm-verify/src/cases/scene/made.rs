@@ -2,6 +2,7 @@
 
 use super::fault::Line;
 use super::form::{BodyForm, LoadForm};
+use super::geostatic::geostatic;
 use super::phase::Phase;
 use super::setup::Setup;
 use super::shape::Seeds;
@@ -14,13 +15,18 @@ impl<const D: usize> Setup<D> {
     pub(super) fn bodies(&self, phase: &Phase) -> Result<Bodies<D>, mpm_core::Error> {
         let mut all: Option<Bodies<D>> = None;
         let laws = [&phase.law].into_iter().chain(&self.others);
+        let overburden = self.overburden();
         for ((body, law), range) in self.form.all_bodies().zip(laws).zip(self.ranges()) {
             let (body, law) = (body.get_ref(), Arc::clone(law));
+            let vertical = &overburden[range.clone()];
             let particles = self.particles_of(body, range)?;
             let mut bodies = match all.take() {
                 None => Bodies::new(law, particles)?,
                 Some(others) => others.and(law, particles)?,
             };
+            if let Some(k0) = body.k0 {
+                bodies = bodies.under(|k, _| geostatic::<D>(vertical[k], k0.0))?;
+            }
             if body.remedy == Some(false) {
                 bodies = bodies.without_remedy();
             }

@@ -6,6 +6,7 @@
 mod body;
 mod fault;
 mod form;
+mod geostatic;
 mod law;
 mod made;
 mod phase;

@@ -61,6 +61,7 @@ impl<const D: usize> Setup<D> {
         let phases = phases(source, &form, scheme, grid.h, &others)?;
         let setup = Self { scheme, phases, grid, seeds, ends, others, spacing, size, form };
         setup.check(source)?;
+        setup.check_geostatic(source)?;
         Ok(setup)
     }
 
@@ -401,7 +402,7 @@ fn components<const D: usize>(given: &[Finite]) -> [f64; D] {
 }
 
 /// Whether what acts in these phases, or in all if none is named, acts in one.
-fn acts(phases: &[String], phase: &str) -> bool {
+pub(super) fn acts(phases: &[String], phase: &str) -> bool {
     phases.is_empty() || phases.iter().any(|name| name == phase)
 }
 

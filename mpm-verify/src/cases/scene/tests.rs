@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 mod bodies;
 mod pairs;
+mod soil;
 
 fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)

@@ -7,7 +7,7 @@ fn rows(file: &str, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
     rows_of(&shipped(file), rows)
 }
 
-fn rows_of(path: &Path, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
+pub(super) fn rows_of(path: &Path, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
     let scene = SceneFile::read(path, 1.0, None).unwrap();
     let none = Parameters::new(&[], &[]).unwrap();
     let mut job = (scene.case.begin)(&scene.spec, &none).unwrap();
@@ -15,7 +15,7 @@ fn rows_of(path: &Path, rows: usize) -> (Vec<Row>, Vec<crate::job::Column>) {
     (rows, job.particles())
 }
 
-fn last(rows: &[Row], name: &str) -> f64 {
+pub(super) fn last(rows: &[Row], name: &str) -> f64 {
     let row = &rows.last().unwrap().0;
     row.iter().find(|(known, _)| *known == name).unwrap_or_else(|| panic!("{name} in {row:?}")).1
 }

@@ -2,9 +2,10 @@
 
 use super::*;
 
-const LAWS: [(&str, &str); 6] = [
+const LAWS: [(&str, &str); 7] = [
     ("neo-hookean", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
     ("hencky", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
+    ("drucker-prager", "young_modulus_pa = 1e6\npoisson_ratio = 0.3\ncohesion_pa = 1e3\nfriction_deg = 30"),
     ("hencky-j2", "young_modulus_pa = 1e6\npoisson_ratio = 0.3\nstrength.undrained = { shear_strength_pa = 1e3 }"),
     ("newtonian-fluid", "bulk_modulus_pa = 1e6\nviscosity_pa_s = 10"),
     ("improved-hencky", "bulk_parameter = 1e6\nshear_modulus_pa = 4e5"),
@@ -70,7 +71,9 @@ fn refused(law: &str, scheme: &str) -> Option<&'static str> {
     let implicit = ["quasi-static", "midpoint", "newmark"].iter().any(|rule| scheme.starts_with(rule));
     match law {
         "newtonian-fluid" if wet => Some("has no pores"),
-        "newtonian-fluid" if implicit && !scheme.ends_with("none") => Some("law without a potential"),
+        "newtonian-fluid" | "drucker-prager" if implicit && !scheme.ends_with("none") => {
+            Some("law without a potential")
+        }
         "improved-hencky" | "cam-clay" if !wet => Some("one [water], whose porosity the law has"),
         _ => None,
     }

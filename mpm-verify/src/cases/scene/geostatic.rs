@@ -1,0 +1,68 @@
+//! Stress of ground that has always been there: the vertical one as what lies above weighs, the horizontal one K₀ times it.
+
+use super::fault::Source;
+use super::form::LoadForm;
+use super::setup::{Setup, acts};
+use crate::cases::prelude::*;
+use mpm_core::SymmetricTensor;
+
+/// σ_v along the last axis, K₀ σ_v across it.
+pub(super) fn geostatic<const D: usize>(vertical: f64, k0: f64) -> SymmetricTensor {
+    let [xx, yy, zz] = std::array::from_fn(|axis| if axis + 1 == D { vertical } else { k0 * vertical });
+    SymmetricTensor { xx, yy, zz, ..SymmetricTensor::default() }
+}
+
+impl<const D: usize> Setup<D> {
+    /// That bodies with a K₀ have a gravity that presses down from the start.
+    pub(super) fn check_geostatic(&self, source: &Source) -> Result<(), Error> {
+        let stressed = self.form.all_bodies().find(|body| body.get_ref().k0.is_some());
+        match stressed {
+            Some(body) if self.gravity().is_none() => {
+                Err(source
+                    .at(body, "k0 needs one gravity in the first phase, down along the last axis and without rise_s"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Acceleration (m/s²) of the one gravity of the first phase, if it acts from the start and along the last axis.
+    fn gravity(&self) -> Option<f64> {
+        let first = &self.phases.first()?.name;
+        let mut all = self.form.loads.iter().filter_map(|load| match load.get_ref() {
+            LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, first) => {
+                let (down, across) = acceleration_m_s2.split_last()?;
+                let level = rise_s.0 == 0.0 && down.0 < 0.0 && across.iter().all(|g| g.0 == 0.0);
+                Some(if level { down.0 } else { f64::NAN })
+            }
+            _ => None,
+        });
+        let one = all.next().filter(|g| !g.is_nan());
+        one.filter(|_| all.next().is_none())
+    }
+
+    /// Vertical stress (Pa) at every particle: what its column weighs above its middle, over the column's area.
+    pub(super) fn overburden(&self) -> Vec<f64> {
+        let weights: Vec<f64> = (self.form.all_bodies().zip(self.ranges()))
+            .flat_map(|(body, range)| range.map(|k| body.get_ref().density_kg_m3.0 * self.seeds.volumes[k]))
+            .map(|mass| mass * self.gravity().unwrap_or(0.0) / self.spacing.powi(D as i32 - 1))
+            .collect();
+        let column = |k: usize| self.seeds.places[k].map(|x| (x / self.spacing).floor() as i64);
+        let mut order: Vec<usize> = (0..weights.len()).collect();
+        order.sort_by_cached_key(|k| {
+            let mut key = column(*k);
+            key[D - 1] = -key[D - 1];
+            key
+        });
+        let mut stress = vec![0.0; weights.len()];
+        let (mut above, mut last) = (0.0, None);
+        for k in order {
+            let own = column(k)[..D - 1].to_vec();
+            if last.as_ref() != Some(&own) {
+                (above, last) = (0.0, Some(own));
+            }
+            stress[k] = above + 0.5 * weights[k];
+            above += weights[k];
+        }
+        stress
+    }
+}

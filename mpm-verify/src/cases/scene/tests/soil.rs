@@ -1,0 +1,130 @@
+//! Ground with friction that begins under its weight.
+
+use super::bodies::{last, rows_of};
+use super::*;
+
+/// Sand under a fill of clay, level, three metres each.
+const LEVEL: &str = "format = 1
+title = \"Level ground\"
+[grid]
+cell_size_m = 0.5
+lower_m = [0, 0]
+cells = [8, 16]
+ends = [\"walls\", \"wall-open\"]
+[body]
+name = \"sand\"
+density_kg_m3 = 2000
+particles_per_direction = 2
+k0 = 0.5
+[[body.shapes]]
+box = { from_m = [0, 0], to_m = [4, 3] }
+[law.drucker-prager]
+young_modulus_pa = 5e6
+poisson_ratio = 0.3
+cohesion_pa = 0
+friction_deg = 30
+[[bodies]]
+name = \"clay\"
+density_kg_m3 = 1600
+k0 = 0.8
+[[bodies.shapes]]
+box = { from_m = [0, 3], to_m = [4, 6] }
+[bodies.law.hencky-j2]
+young_modulus_pa = 2e6
+poisson_ratio = 0.3
+strength.undrained = { shear_strength_pa = 20e3 }
+[[loads]]
+gravity = { acceleration_m_s2 = [0, -9.81] }
+[[supports]]
+wall = { name = \"base\", axis = \"y\", end = \"lo\", kind = \"roller\" }
+[[supports]]
+wall = { name = \"left\", axis = \"x\", end = \"lo\", kind = \"roller\" }
+[[supports]]
+wall = { name = \"right\", axis = \"x\", end = \"hi\", kind = \"roller\" }
+[solver]
+scheme = \"quasi-static-gimp-none\"
+time_step_s = 1
+[[phases]]
+name = \"rest\"
+duration_s = 2
+[output]
+row_s = 1
+";
+const EXPLICIT: &str = "scheme = \"gimp-none-flip\"\ncfl = 0.3";
+
+#[test]
+fn layers_begin_under_their_weight_and_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let run = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        rows_of(&path, 2)
+    };
+    let (rows, particles) = run(LEVEL);
+    assert_eq!(last(&rows, "displacement_max (m)"), 0.0);
+    let column = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    let [y, xx, yy] = ["y", "stress_xx", "stress_yy"].map(column);
+    for ((y, xx), yy) in y.iter().zip(xx).zip(yy) {
+        let (weight, k0) = if *y > 3.0 { (1600.0 * (6.0 - y), 0.8) } else { (4800.0 + 2000.0 * (3.0 - y), 0.5) };
+        let vertical = -9.81 * weight;
+        assert!((yy / vertical - 1.0).abs() < 1e-9 && (xx / (k0 * vertical) - 1.0).abs() < 1e-9, "{y}: {xx} {yy}");
+    }
+    // In motion, by the imbalance of a cell at the surface and at the joint: (h/H)² of ρ g H²/(2 M).
+    let text = LEVEL.replace("scheme = \"quasi-static-gimp-none\"\ntime_step_s = 1", EXPLICIT);
+    let (rows, _) = run(&text);
+    let settles = 2000.0 * 9.81 * 36.0 / (2.0 * 2e6 * 1.35);
+    let moved = last(&rows, "displacement_max (m)");
+    assert!(moved < settles / 144.0, "{moved} of {settles}");
+}
+
+#[test]
+fn ground_that_cannot_begin_so_is_named_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let gravity = "[0, -9.81] }";
+    for (from, to, parts) in [
+        (gravity, "[0, -9.81], rise_s = 1 }", &["line 8", "k0 needs one gravity", "without rise_s"][..]),
+        (gravity, "[1, -9.81] }", &["k0 needs one gravity", "down along the last axis"]),
+        (gravity, "[0, 9.81] }", &["k0 needs one gravity"]),
+        (
+            gravity,
+            "[0, -9.81], phases = [\"rest\"] }\n[[loads]]\ngravity = { acceleration_m_s2 = [0, -1] }",
+            &["one gravity"],
+        ),
+        ("k0 = 0.5", "k0 = -0.5", &["k0", "-0.5"]),
+        ("friction_deg = 30", "friction_deg = 95", &["friction", "below π/2"]),
+        ("friction_deg = 30", "friction_deg = 30\ndilation_deg = 31", &["dilation", "angle of friction"]),
+        ("friction_deg = 30", "friction_deg = 30\nmatched = \"cone\"", &["cone", "plane-strain"]),
+        ("cohesion_pa = 0\nfriction_deg = 30", "cohesion_pa = 0\nfriction_deg = 0", &["cohesion"]),
+    ] {
+        assert!(LEVEL.contains(from), "{from}");
+        std::fs::write(&path, LEVEL.replacen(from, to, 1)).unwrap();
+        let said = SceneFile::read(&path, 1.0, None).err().map(|e| e.to_string()).unwrap_or_default();
+        for part in parts {
+            assert!(said.contains(part), "{to}: {said:?} lacks {part:?}");
+        }
+    }
+    // Rankine's active pressure of 30° is a third.
+    std::fs::write(&path, LEVEL.replacen("k0 = 0.5", "k0 = 0.25", 1)).unwrap();
+    let said = SceneFile::read(&path, 1.0, None).err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(said.contains("at the start") && said.contains("without flow"), "{said}");
+}
+
+/// Weaker by 2: half the cohesion and half the tangent.
+#[test]
+fn strength_with_friction_is_divided() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    // The active pressure of the weaker sand is (1 − sin φ)/(1 + sin φ) = 0.565 of the vertical one.
+    let half = (30_f64.to_radians().tan() / 2.0).atan().sin();
+    let active = (1.0 - half) / (1.0 + half);
+    for (k0, begins) in [(0.98 * active, false), (1.02 * active, true)] {
+        let own = format!("k0 = {k0}\n");
+        let text = LEVEL.replace("k0 = 0.5\n", &own).replace("k0 = 0.8\n", "k0 = 1\n");
+        // Two equal stresses: the cone of triaxial compression.
+        let cone = "friction_deg = 30\nmatched = \"compression\"\n";
+        std::fs::write(&path, text.replace("friction_deg = 30\n", cone)).unwrap();
+        assert!(SceneFile::read(&path, 1.0, None).is_ok());
+        assert_eq!(SceneFile::read(&path, 2.0, None).is_ok(), begins, "{k0}");
+    }
+}
