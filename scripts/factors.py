@@ -36,6 +36,7 @@ SCENES = [
     ("slope, 45°, its toe cut away", "slope-quasi-static", "[14, 0], [14, 1], [10, 5]", known(5.474, 5.551), (1.1, 2.2)),
     ("slope, 60°", "slope-quasi-static", face(60), known(5.24, 5.25), (1.0, 2.2)),
     ("slope, 75°", "slope-quasi-static", face(75), known(4.56, 4.57), (0.9, 2.0)),
+    ("slope, 2:1, with friction", "slope-with-friction", None, "1.380 (Bishop & Morgenstern 1960)", (1.0, 2.0)),
     ("vertical cut", "vertical-cut", None, "0.801 to 0.805", (0.5, 1.5)),
 ]
 

@@ -32,6 +32,7 @@ const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
 const THROWS: &str =
     "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
 const FLOWS: &str = "ground whose weight is tens of times its strength flows off the end of the floor, as water would";
+const LEAKS: &str = "`wall-line` splines do not interpolate at the floor, and a particle creeps through it: docs/method.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
 /// γ H over the undrained shear strength from which ground flows like water: as in the case `excavation`.
@@ -46,7 +47,9 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     let flat = record.discretisation.dim == 2 && record.discretisation.h <= h;
     let far = |c: &Setup<Landslide>| c.reduction >= reduction && c.duration >= time;
     let thrown = (printed && flat && Setup::holds(record, far)).then_some(THROWS);
-    thrown.or(Setup::holds(record, Setup::<Landslide>::flows_away).then_some(FLOWS))
+    let leaks = Setup::holds(record, |c: &Setup<Landslide>| c.wall == common::Wall::WallLine && c.basis() != Gimp);
+    let flows = Setup::holds(record, Setup::<Landslide>::flows_away);
+    thrown.or(flows.then_some(FLOWS)).or(leaks.then_some(LEAKS))
 }
 
 /// Known motions of a ground under its weight.
