@@ -45,7 +45,7 @@ pub(crate) const EXPLICIT: [Fault; 30] = [
         file: "stage/wall.rs",
         sound: "self.kind == WallKind::Fixed || axis == self.axis",
         broken: "axis == self.axis",
-        seen_by: &[(RATE, "completes")],
+        seen_by: &[(RATE, "at-rest")],
     },
     Fault {
         name: "the printed algorithm no longer creeps",
