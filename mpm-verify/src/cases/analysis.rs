@@ -46,15 +46,13 @@ pub(super) fn visited(rows: usize, [particles, pairs]: [u64; 2]) -> WorkDone {
 
 /// A case of the analysis `A` by name, title and metrics, with nothing else.
 pub(super) fn case_of<A: Analysis + 'static>(name: &'static str, title: &'static str, metrics: &[Metric]) -> Case {
-    let begin = Box::new(begin::<A>);
-    Case::begun_by(name, title, metrics, A::Parameters::list(), begin)
+    Case::begun_by(name, title, metrics, A::Parameters::list(), Box::new(begin::<A>))
 }
 
 /// Begins a run of the analysis `A`.
 pub(super) fn begin<A: Analysis + 'static>(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
     let analysis = A::new(Setup::of_spec(spec, parameters)?)?;
-    let found = Vec::new();
-    Ok(Box::new(Run { analysis, found }))
+    Ok(Box::new(Run { analysis, found: Vec::new() }))
 }
 
 /// A run of an [`Analysis`].
@@ -106,8 +104,7 @@ impl<A: Analysis> Job for Run<A> {
     }
 
     fn metrics(&mut self) -> BTreeMap<String, Measured> {
-        let values = self.analysis.metrics(&self.found);
-        values.into_iter().map(measured).collect()
+        self.analysis.metrics(&self.found).into_iter().map(measured).collect()
     }
 
     fn work(&self) -> WorkDone {

@@ -86,8 +86,7 @@ pub(super) fn orders_in_time<'a>(
 ) -> Vec<(String, f64)> {
     let mut ladders: BTreeMap<(Scheme, &str), BTreeMap<u64, f64>> = BTreeMap::new();
     for r in runs.filter(|r| r.status == Status::Ok) {
-        let ladder = ladders.entry((r.scheme(), &*r.level)).or_default();
-        ladder.insert(count(r) as u64, r.metric(metric));
+        ladders.entry((r.scheme(), &*r.level)).or_default().insert(count(r) as u64, r.metric(metric));
     }
     let order = |((scheme, level), by): ((Scheme, &str), BTreeMap<u64, f64>)| {
         let at = |part: u64| by.get(&(finest / part)).copied();

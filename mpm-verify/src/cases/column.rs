@@ -32,8 +32,7 @@ impl Known for WaterColumn {
     const RESTS: bool = true;
 
     fn parameters() -> Vec<Parameter> {
-        let defaults = [(CFL, "0.057"), (PPC_PER_DIRECTION, "5")];
-        all_parameters(ENTRY.parameters, &defaults, "0.2", &[])
+        all_parameters(ENTRY.parameters, &[(CFL, "0.057"), (PPC_PER_DIRECTION, "5")], "0.2", &[])
     }
 }
 

@@ -16,8 +16,7 @@ pub(super) const REMEDIES: [RemedyName; 5] = [
 
 /// The levels of `n` cells per side of length `side` (m).
 pub(super) fn levels<const N: usize>(side: f64, names: [(&'static str, f64); N]) -> Vec<Level> {
-    let level = |(name, n)| Level { name, h: side / n };
-    names.into_iter().map(level).collect()
+    names.into_iter().map(|(name, n)| Level { name, h: side / n }).collect()
 }
 
 /// Cost of a step with the remedy of a run, of those in the order of [`REMEDIES`].
@@ -28,16 +27,13 @@ pub(super) fn remedy_cost(spec: &RunSpec, costs: [f64; 5]) -> f64 {
 
 /// Every pair of a basis and a remedy, with FLIP.
 pub(super) fn pairs(bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme> {
-    let of_basis = |&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r));
-    bases.iter().flat_map(of_basis).collect()
+    bases.iter().flat_map(|&basis| remedies.iter().map(move |&r| Scheme::flip(basis, r))).collect()
 }
 
 /// Every combination of a rule of time, a basis and a remedy.
 pub(super) fn implicit(rules: &[RuleName], bases: &[BasisName], remedies: &[RemedyName]) -> Vec<Scheme> {
-    let of_rule = |&rule| {
-        let of_basis = move |&basis| remedies.iter().map(move |&r| Scheme::implicit(rule, basis, r));
-        bases.iter().flat_map(of_basis)
-    };
+    let of_rule =
+        |&rule| bases.iter().flat_map(move |&basis| remedies.iter().map(move |&r| Scheme::implicit(rule, basis, r)));
     rules.iter().flat_map(of_rule).collect()
 }
 
@@ -49,8 +45,7 @@ pub(super) fn main_pairs() -> Vec<Scheme> {
 /// The main pairs with APIC and XPIC(2).
 pub(super) fn other_transfers() -> Vec<Scheme> {
     let with = |transfer| main_pairs().into_iter().map(move |s| Scheme::explicit(s.basis(), s.remedy(), transfer));
-    let transfers = [TransferName::Apic, TransferName::Xpic2];
-    transfers.into_iter().flat_map(with).collect()
+    [TransferName::Apic, TransferName::Xpic2].into_iter().flat_map(with).collect()
 }
 
 /// Table of the results of other transfers and particle numbers per direction beside FLIP with the case's default of

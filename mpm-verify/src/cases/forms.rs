@@ -219,15 +219,13 @@ impl Field {
 
     /// Values at the particles.
     pub(super) fn values(&self, of: &DVector<f64>) -> Vec<f64> {
-        let at = |p| self.at(p).map(|(i, w, _)| of[i] * w).sum();
-        (0..self.seen.len()).map(at).collect()
+        (0..self.seen.len()).map(|p| self.at(p).map(|(i, w, _)| of[i] * w).sum()).collect()
     }
 }
 
 /// The grid of a pressure on two grids: of cells twice as large between the same ends.
 pub(super) fn coarse(grid: &Grid<2>) -> Result<Grid<2>, Error> {
-    let axes = grid.axes.map(|axis| mpm_core::Axis { cells: axis.cells / 2, ..axis });
-    Grid::new(2.0 * grid.h, axes)
+    Grid::new(2.0 * grid.h, grid.axes.map(|axis| mpm_core::Axis { cells: axis.cells / 2, ..axis }))
 }
 
 /// The eigenvalues of a symmetric matrix, smallest first.

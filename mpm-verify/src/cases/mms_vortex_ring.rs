@@ -59,7 +59,6 @@ fn claim(r: &Setup<()>) -> Claim {
     } else if r.values.number(PPC_PER_DIRECTION) > 2.0 {
         Claim::Open("runs with more particles end at n32; the band is that of n16 to n64")
     } else {
-        let why = "the body force jumps at the two circles: order two at best";
-        Claim::Observed([1.15, 2.15], why)
+        Claim::Observed([1.15, 2.15], "the body force jumps at the two circles: order two at best")
     }
 }

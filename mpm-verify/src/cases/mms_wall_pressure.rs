@@ -60,8 +60,7 @@ pub(super) fn case() -> Case {
 fn plan() -> Plan {
     let few = [RemedyName::None, FbarRate, FbarConsistent];
     let two = [Gimp, Bspline2];
-    let rules = [RuleName::Midpoint, RuleName::Newmark];
-    let moved = implicit(&rules, &BASES[..3], &few[..1]);
+    let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &BASES[..3], &few[..1]);
     // GIMP's consistent mass is singular once particles have moved.
     let definite = [moved[0], moved[2]];
     let own = pairs(&two, &few);

@@ -147,6 +147,5 @@ pub fn place(name: &str) -> usize {
 /// # Errors
 /// The name is unknown; the error lists the known names.
 pub fn find(name: &str) -> Result<&'static Case, Error> {
-    let case = ALL.iter().find(|c| c.name == name);
-    case.ok_or_else(|| Error::unknown("case", name, ALL.iter().map(|c| c.name)))
+    ALL.iter().find(|c| c.name == name).ok_or_else(|| Error::unknown("case", name, ALL.iter().map(|c| c.name)))
 }

@@ -33,8 +33,7 @@ impl<P: ParameterSet> Setup<P> {
 
     /// Requires the defaults of the parameters with these `names`, which only another kind of solver has.
     pub(super) fn forbid(&self, names: &[&str]) -> Result<(), Error> {
-        let foreign = |p: &Parameter| names.contains(&p.name);
-        for p in P::list().into_iter().filter(foreign) {
+        for p in P::list().into_iter().filter(|p| names.contains(&p.name)) {
             let (value, default) = (self.values.text(p), p.parse(p.default)?.to_string());
             if value != default {
                 return Err(Error::Input(format!(
@@ -51,8 +50,7 @@ impl<P: ParameterSet> Setup<P> {
     pub(super) fn check_rule(&self) -> Result<(), Error> {
         let refused = |solver: &str| {
             let solvers = ["explicit", "midpoint", "newmark"];
-            let kind = "solver of bodies that move";
-            Err(Error::unknown(kind, solver, solvers))
+            Err(Error::unknown("solver of bodies that move", solver, solvers))
         };
         const OF_EXPLICIT: [&str; 5] = ["wall", "flip", "relaxation", "hold", "time_step"];
         let foreign: Vec<&str> = match (self.scheme, self.rule()) {

@@ -57,8 +57,7 @@ pub(super) fn cfl_number(
     if !parameters.is(TIME_STEP, AUTO) {
         return Ok(parameters.number(CFL));
     }
-    let found = mpm_solvers::stable_cfl(basis, dimension, half_size);
-    found.ok_or_else(|| {
+    mpm_solvers::stable_cfl(basis, dimension, half_size).ok_or_else(|| {
         Error::Input(format!(
             "time_step = {AUTO} has no step for the basis {basis}, whose functions vanish with a slope; allowed: cfl"
         ))

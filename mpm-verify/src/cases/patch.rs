@@ -249,8 +249,7 @@ impl<const D: usize> Problem<D> for Moving {
         let waves = if setup.strain > 0.0 { WAVES } else { FALLING_WAVES };
         let speed = waves * setup.h / DURATION;
         let unit = NeoHookean::new(1.0, ratio)?.wave_speed(DENSITY);
-        let law = NeoHookean::new((speed / unit).powi(2), ratio)?;
-        Ok(Self { law, dt: DURATION / STEPS as f64, setup })
+        Ok(Self { law: NeoHookean::new((speed / unit).powi(2), ratio)?, dt: DURATION / STEPS as f64, setup })
     }
 
     fn discretisation(&self) -> Discretisation {

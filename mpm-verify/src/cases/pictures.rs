@@ -43,13 +43,11 @@ pub(super) struct Exhibit<'a, 'g> {
 impl<'a, 'g> Exhibit<'a, 'g> {
     /// The records among `records` that [are shown](is_shown).
     pub(super) fn new(gallery: &'a mut Gallery<'g>, records: impl IntoIterator<Item = &'g Record>) -> Self {
-        let records = records.into_iter().filter(is_shown).collect();
-        Self { gallery, records }
+        Self { gallery, records: records.into_iter().filter(is_shown).collect() }
     }
 
     pub(super) fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'g Record> {
-        let wanted = |r: &&&Record| r.basis() == basis && r.remedy() == remedy && r.level == level;
-        self.records.iter().find(wanted).copied()
+        self.records.iter().find(|r| r.basis() == basis && r.remedy() == remedy && r.level == level).copied()
     }
 
     /// The first of `levels` at which all `remedies` have run.
@@ -59,10 +57,7 @@ impl<'a, 'g> Exhibit<'a, 'g> {
         remedies: &[RemedyName],
         levels: &[&'static str],
     ) -> Option<&'static str> {
-        let has_all = |level: &&str| {
-            let has = |&remedy: &RemedyName| self.find(basis, remedy, level).is_some();
-            remedies.iter().all(has)
-        };
+        let has_all = |level: &&str| remedies.iter().all(|&remedy| self.find(basis, remedy, level).is_some());
         levels.iter().copied().find(has_all)
     }
 

@@ -129,8 +129,7 @@ pub(super) fn matrix_entries<const D: usize>(run: &dyn Simulation<D>) -> f64 {
 
 /// Pressure (Pa) at the lowest node of a column.
 pub(super) fn base_pressure(run: &dyn Simulation<1>) -> f64 {
-    let nodes = run.pressure_nodes();
-    nodes.iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0])).map_or(f64::NAN, |(_, p)| *p)
+    run.pressure_nodes().iter().min_by(|a, b| a.0[0].total_cmp(&b.0[0])).map_or(f64::NAN, |(_, p)| *p)
 }
 
 /// Outflow of a run's water (m³, m² in plane strain, m in one dimension).
@@ -150,6 +149,5 @@ pub(super) fn beyond_rounding(overshoot: f64) -> f64 {
 
 /// Change of the volume and outflow together, over the outflow, at least [`ROUNDING`].
 pub(super) fn mass_error<const D: usize>(run: &dyn Simulation<D>) -> f64 {
-    let imbalance = run.water().map_or(f64::NAN, |w| w.imbalance);
-    above_rounding(over_outflow(run, imbalance))
+    above_rounding(over_outflow(run, run.water().map_or(f64::NAN, |w| w.imbalance)))
 }

@@ -30,8 +30,7 @@ impl CompressibleWave {
             width: wave.width,
             height: wave.depth,
         };
-        let rest = rest.upright("depth")?;
-        Ok(Self { wave, rest })
+        Ok(Self { wave, rest: rest.upright("depth")? })
     }
 }
 
@@ -126,8 +125,7 @@ fn compression(r: &Setup<()>) -> f64 {
 pub(super) fn case() -> Case {
     let all = pairs(&SMOOTH, &REMEDIES);
     let held = pairs(&[Gimp], &[FbarConsistent]);
-    let rules = [RuleName::Midpoint, RuleName::Newmark];
-    let moved = implicit(&rules, &SMOOTH, &[RemedyName::None]);
+    let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &SMOOTH, &[RemedyName::None]);
     let steps: Label = ("CFL", |r| r.parameters.text(CFL));
     let plan = Plan::of(metre_levels()[..2].to_vec())
         .runs(Pr, "n8", &all, "")
@@ -182,8 +180,7 @@ fn periods(name: &str, labels: &[Label], shows: fn(&Record) -> bool) -> ResultTa
             Column::metric(title, metric, format).of(move |r| r.level == level)
         })
     };
-    let columns = ["n8", "n16"].into_iter().flat_map(of_level);
-    ResultTable::new(name, shows, labels, columns)
+    ResultTable::new(name, shows, labels, ["n8", "n16"].into_iter().flat_map(of_level))
 }
 
 /// Why the frequency of a run is not judged, if it is not.

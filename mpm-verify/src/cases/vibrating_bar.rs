@@ -87,8 +87,7 @@ fn is_cubic(r: &Setup<()>) -> bool {
 
 pub(super) fn case() -> Case {
     let all = pairs(&BASES, &REMEDIES);
-    let rules = [RuleName::Midpoint, RuleName::Newmark];
-    let moved = implicit(&rules, &BASES[..3], &[RemedyName::None]);
+    let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &BASES[..3], &[RemedyName::None]);
     let plan = Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &all[..1], "")
         .runs(Pr, THREE, &all, "")
@@ -149,8 +148,7 @@ fn over_rules() -> ResultTable {
     };
     let labels: [Label; 3] = [SCHEME, ("CFL", |r| r.parameters.text(CFL)), ("β", |r| r.parameters.text(LUMPED))];
     let columns = LEVELS[..3].iter().copied().flat_map(of_level);
-    let shows = |r: &Record| r.scheme().rule().is_some();
-    ResultTable::new("vibrating-bar-rules", shows, &labels, columns)
+    ResultTable::new("vibrating-bar-rules", |r| r.scheme().rule().is_some(), &labels, columns)
 }
 
 /// (1 − square of the frequency over that without a remedy)/(kh)².
@@ -330,8 +328,7 @@ fn claim_of_damping(r: &Setup<()>) -> Claim {
 /// Runs that differ in their steps alone; those of cells cancel.
 fn steps_slow(records: &[Record]) -> Vec<Finding> {
     let runs = Run::<()>::all(records);
-    let implicit = |r: &Run<()>| r.is_implicit() && r.changes_only(CFL.name);
-    let runs: Vec<Run<()>> = runs.filter(implicit).collect();
+    let runs: Vec<Run<()>> = runs.filter(|r| r.is_implicit() && r.changes_only(CFL.name)).collect();
     let found = runs.iter().filter_map(|r| {
         let same = |other: &&Run<()>| other.scheme == r.scheme && other.level == r.level;
         let finest = runs.iter().filter(same).min_by(|a, b| a.dt().total_cmp(&b.dt()))?;

@@ -50,8 +50,7 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
     fn factor(r: &Record) -> Option<String> {
         let none = r.basis() == Q8 && r.set == UNSTABLE;
         let value = of_paper(r, "stabilisation_factor", "0.01");
-        let soft = value.map(|value| format!("soft stiffness {value}"));
-        soft.or_else(|| none.then(|| "none: stops".to_owned()))
+        value.map(|value| format!("soft stiffness {value}")).or_else(|| none.then(|| "none: stops".to_owned()))
     }
     fn points(r: &Record) -> Option<String> {
         let number: u32 = of_paper(r, "points_per_direction", "4")?.parse().ok()?;
@@ -66,8 +65,7 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
         let runs = gallery.records.iter().filter(|r| name_of(r).is_some());
         let mut panel = Panel::new(title, ["weight (kN/m³)", label])
             .histories(gallery, runs, |_, t| {
-                let path = t.pairs(["weight", column], |weight, u| (1e-3 * weight, u));
-                [vec![(0.0, 0.0)], path].concat()
+                [vec![(0.0, 0.0)], t.pairs(["weight", column], |weight, u| (1e-3 * weight, u))].concat()
             })?
             .styled(|k, curve| Series { colour: k, ..curve })
             .by_run(|r, curve| {

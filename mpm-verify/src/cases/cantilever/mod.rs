@@ -208,8 +208,7 @@ fn tables() -> Vec<ResultTable> {
     const LAW: Label = ("law", |r| word(r, "law", "hencky"));
     const CHANGED: Label = ("changed", |r| or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>()));
     const BESIDE_PAPER: Label = ("changed", |r| {
-        let more = r.set.iter().map(String::as_str).filter(|set| !PAPER.contains(set));
-        or_dash(&more.collect::<Vec<_>>())
+        or_dash(&r.set.iter().map(String::as_str).filter(|set| !PAPER.contains(set)).collect::<Vec<_>>())
     });
     // The penalty as a share of G = E/2.
     const ALPHA: Label = ("α_u", |r| format!("{}", 2.0 * Setup::<Cantilever>::number_of(r, |c| c.ghost)));

@@ -63,8 +63,7 @@ impl Setup<Cantilever> {
         // One of an odd number stands in the middle either way.
         let gauss = self.points == Points::Gauss && per_cell.is_multiple_of(2);
         let [xs, ys] = [0, 1].map(|a| along(self.counts()[a], self.element()[a] / per_cell as f64, gauss));
-        let column = |x: &f64| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>();
-        self.start_at(xs.iter().flat_map(column))
+        self.start_at(xs.iter().flat_map(|x| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>()))
     }
 
     /// The simulation at its start.
@@ -132,8 +131,7 @@ impl Problem<2> for Bending {
     fn new(setup: Setup<Cantilever>) -> Result<Self, Error> {
         let strain = setup.weight * (1.0 + setup.poisson_ratio) / setup.young_modulus;
         let why = "1/m: below, rounding hides the answer, and above, shear alone takes the tip off the grid";
-        let what = "weight (1 + poisson_ratio) / young_modulus";
-        require_quotient(what, strain, WEIGHT_OVER_MODULUS, why)?;
+        require_quotient("weight (1 + poisson_ratio) / young_modulus", strain, WEIGHT_OVER_MODULUS, why)?;
         Ok(Self { edge: Edge::new(&setup), setup })
     }
 

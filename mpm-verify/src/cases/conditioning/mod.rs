@@ -161,10 +161,8 @@ fn checks() -> Vec<Check> {
 /// A metric at two strengths next to each other, by name, for every scheme and number of places.
 fn over_strength(records: &[Record], metric: Metric) -> Vec<(String, [f64; 2])> {
     let mut ladders: BTreeMap<(String, usize), Vec<(f64, f64)>> = BTreeMap::new();
-    let runs = Run::<Ellipse>::all(records);
-    for e in runs.filter(|e| e.changes_none_but(&["alpha", "positions"])) {
-        let ladder = ladders.entry((e.scheme.to_string(), e.positions)).or_default();
-        ladder.push((e.alpha, e.metric(metric)));
+    for e in Run::<Ellipse>::all(records).filter(|e| e.changes_none_but(&["alpha", "positions"])) {
+        ladders.entry((e.scheme.to_string(), e.positions)).or_default().push((e.alpha, e.metric(metric)));
     }
     let mut all = Vec::new();
     for ((scheme, places), mut points) in ladders {

@@ -94,8 +94,7 @@ impl Analysis for Setup<Ellipse> {
         let of = |k: usize| spread(found.iter().map(|r| r.own[k]));
         let softest = |k: usize| spread(found.iter().map(|r| r.softest[k]))[0];
         let whole = |k: usize| spread(found.iter().filter_map(|r| Some(r.whole?[k])))[2];
-        let pairs = found.iter().zip(found.iter().rev());
-        let apart = spread(pairs.map(|(a, b)| (a.own[0] - b.own[0]).abs()));
+        let apart = spread(found.iter().zip(found.iter().rev()).map(|(a, b)| (a.own[0] - b.own[0]).abs()));
         let ([u_least, u_mean, u], [p_least, p_mean, p]) = (of(0), of(1));
         let deflection = match self.basis() {
             Gimp => self.deflection_change::<Means>(),
@@ -150,8 +149,7 @@ impl Setup<Ellipse> {
     /// The matrices at the `k`-th place with the functions `I`.
     fn with<I: OfHats<2>>(&self, k: usize) -> Result<Found, mpm_core::Error> {
         let h = self.h;
-        let axes = [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])];
-        let grid = Grid::new(h, axes)?;
+        let grid = Grid::new(h, [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])])?;
         let of_pressure = if self.space() == Some(Equal) { grid } else { coarse(&grid)? };
         let (of_u, of_p) = (I::on(grid)?, I::on(of_pressure)?);
         let cloud = self.cloud(k);
@@ -187,11 +185,9 @@ impl Setup<Ellipse> {
     /// Change by α of the mean deflection of the cantilever with the functions `I`.
     fn deflection_change<I: OfHats<2>>(&self) -> Result<f64, mpm_core::Error> {
         let h = self.h;
-        let axes = [Axis::walls(0.0, BEAM_GRID[0]), Axis::open(0.0, BEAM_GRID[1])];
-        let functions = I::on(Grid::new(h, axes)?)?;
+        let functions = I::on(Grid::new(h, [Axis::walls(0.0, BEAM_GRID[0]), Axis::open(0.0, BEAM_GRID[1])])?)?;
         let count = BEAM.map(|cells| cells * PARTICLES);
-        let spacing = h / PARTICLES as f64;
-        let cloud = Cloud::new([0.0, BEAM_FLOOR * h], count, spacing, |_| true);
+        let cloud = Cloud::new([0.0, BEAM_FLOOR * h], count, h / PARTICLES as f64, |_| true);
         let points = BEAM_GRID[1] * POINTS;
         let held: Vec<[f64; 2]> = (0..=points).map(|i| [0.0, i as f64 / POINTS as f64 * h]).collect();
         let u = Field::new(&functions, &cloud, &held);

@@ -60,8 +60,7 @@ fn gaps(given: &Given) -> Gaps {
             None => Gap::Unknown(format!("{} rows are too few to know the curve between them", time.len())),
         }
     };
-    let settlement = gap(&SETTLEMENT, |at| at.settlement);
-    Ok(vec![(SETTLEMENT_ERROR, settlement), (BASE_PRESSURE_ERROR, gap(&BASE, |_| 1.0))])
+    Ok(vec![(SETTLEMENT_ERROR, gap(&SETTLEMENT, |at| at.settlement)), (BASE_PRESSURE_ERROR, gap(&BASE, |_| 1.0))])
 }
 
 /// The rows that a code gives; missing values are zero, which no group takes.

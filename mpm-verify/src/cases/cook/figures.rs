@@ -12,8 +12,7 @@ const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (48.0, 44.0), (48.0, 60.0), (0.0, 
 
 /// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let records = own_runs(gallery.records);
-    let mut runs = Exhibit::new(gallery, records);
+    let mut runs = Exhibit::new(gallery, own_runs(gallery.records));
     for basis in BASES {
         fields(&mut runs, basis)?;
     }

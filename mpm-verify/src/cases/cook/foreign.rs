@@ -35,8 +35,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?)),
         ),
         Group::new(&[REACTION], [REACTION_UY], |given| {
-            let last = given.column(&REACTION).last();
-            Ok(vec![(REACTION_UY, last.copied().unwrap_or(f64::NAN))])
+            Ok(vec![(REACTION_UY, given.column(&REACTION).last().copied().unwrap_or(f64::NAN))])
         }),
         Group::new(&[KINETIC, STRESS_WORK, LOAD_WORK, LOSSES], [ENERGY_GAIN], energy_gain),
     ];

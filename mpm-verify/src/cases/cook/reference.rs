@@ -145,8 +145,7 @@ pub(super) struct LargeLoad {
 
 fn document() -> Result<&'static Document, String> {
     static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
-    let unreadable = || "the stored reference can't be read".to_owned();
-    DOCUMENT.as_ref().ok_or_else(unreadable)
+    DOCUMENT.as_ref().ok_or_else(|| "the stored reference can't be read".to_owned())
 }
 
 impl Setup<Cook> {

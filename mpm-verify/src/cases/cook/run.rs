@@ -39,8 +39,7 @@ fn seed(spacing: f64) -> Vec<[f64; 2]> {
     let lower = |x: f64| LEFT_HEIGHT * x / LENGTH;
     let upper = |x: f64| LEFT_HEIGHT + RIGHT_HEIGHT * x / LENGTH;
     let counts = [LENGTH, LEFT_HEIGHT + RIGHT_HEIGHT].map(|length| (length / spacing).round() as usize);
-    let inside = |[x, y]: &[f64; 2]| *y >= lower(*x) - ON_SIDE && *y <= upper(*x) + ON_SIDE;
-    by_columns(counts, spacing).filter(inside).collect()
+    by_columns(counts, spacing).filter(|[x, y]| *y >= lower(*x) - ON_SIDE && *y <= upper(*x) + ON_SIDE).collect()
 }
 
 impl Setup<Cook> {
@@ -142,8 +141,7 @@ pub(super) struct Seen {
 impl Seen {
     /// The growth of rms ln(J/J̄) over the second half of the `time` (s) so far.
     fn creep(&self, time: f64) -> Option<Line> {
-        let later = self.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time);
-        fit_line(&later.collect::<Vec<_>>())
+        fit_line(&self.gaps.iter().copied().filter(|(t, _)| *t >= 0.5 * time).collect::<Vec<_>>())
     }
 }
 
@@ -307,8 +305,7 @@ impl Problem<2> for Membrane {
         let dt = if setup.is_explicit() {
             setup.forbid(&OF_QUASI_STATIC)?;
             setup.check_together()?;
-            let speed = setup.law()?.wave_speed(setup.density);
-            courant_time_step(setup.cfl, setup.h, speed)
+            courant_time_step(setup.cfl, setup.h, setup.law()?.wave_speed(setup.density))
         } else {
             setup.forbid(&OF_EXPLICIT)?;
             1.0 / f64::from(setup.load_steps)

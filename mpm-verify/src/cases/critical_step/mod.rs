@@ -63,8 +63,7 @@ pub(super) fn case() -> Case {
         .sketch(sketch())
         .cost(|_| 0.1)
         .begun(|spec, values| {
-            let setup = Setup::<Step>::of_spec(spec, values)?;
-            match setup.dimension {
+            match Setup::<Step>::of_spec(spec, values)?.dimension {
                 1 => begin::<1, Trials<1>>(spec, values),
                 2 => begin::<2, Trials<2>>(spec, values),
                 _ => begin::<3, Trials<3>>(spec, values),

@@ -38,8 +38,7 @@ pub(super) struct Grown(Vec<bool>);
 impl Grown {
     /// The logarithms of the CFL numbers between which the critical one is.
     fn range(&self) -> [f64; 2] {
-        let whole = [LEAST.ln(), MOST.ln()];
-        self.0.iter().fold(whole, |[lo, hi], grew| {
+        self.0.iter().fold([LEAST.ln(), MOST.ln()], |[lo, hi], grew| {
             let middle = 0.5 * (lo + hi);
             if *grew { [lo, middle] } else { [middle, hi] }
         })
@@ -76,8 +75,7 @@ impl<const D: usize> Trials<D> {
     fn places(&self, axis: usize) -> Vec<f64> {
         let n = self.setup.ppc_per_direction;
         let jitter = if self.setup.layout == Layout::Jittered { JITTER } else { 0.0 };
-        let place = |k: usize| (k as f64 + 0.5 + jitter * noise(axis * n + k)) / n as f64;
-        (0..n).map(place).collect()
+        (0..n).map(|k| (k as f64 + 0.5 + jitter * noise(axis * n + k)) / n as f64).collect()
     }
 
     /// How far the body is moved so that its outermost functions see the first particle over `cut` alone, in cells.
@@ -95,8 +93,7 @@ impl<const D: usize> Trials<D> {
             .map(|axis| {
                 let shift = if axis == 0 && self.is_cut() { self.shift() } else { 0.0 };
                 let places = self.places(axis);
-                let cell = |c: usize| places.iter().map(move |x| (x + c as f64 + shift) * h);
-                (0..PERIOD).flat_map(cell).collect()
+                (0..PERIOD).flat_map(|c| places.iter().map(move |x| (x + c as f64 + shift) * h)).collect()
             })
             .collect();
         let counts = axes.iter().map(Vec::len);
@@ -172,15 +169,13 @@ impl<const D: usize> Problem<D> for Trials<D> {
         };
         let (stretch, viscosity) = (setup.stretch, setup.linear_viscosity);
         let out_of_range = |name: &str, value: f64, place: &str, allowed: f64| {
-            let why = format!("{name} = {value} is out of range {place}; allowed: {allowed}");
-            Err(Error::Input(why))
+            Err(Error::Input(format!("{name} = {value} is out of range {place}; allowed: {allowed}")))
         };
         if D > 1 && stretch != 1.0 {
             return out_of_range("stretch", stretch, "in two and three dimensions", 1.0);
         }
         if viscosity > 0.0 && (D > 1 || stretch != 1.0) {
-            let place = "but in one dimension without a stretch";
-            return out_of_range("linear_viscosity", viscosity, place, 0.0);
+            return out_of_range("linear_viscosity", viscosity, "but in one dimension without a stretch", 0.0);
         }
         let law = NeoHookean::new(YOUNG_MODULUS, setup.poisson_ratio)?;
         let (stress, state) = law.at_rest(&stretched::<3>(stretch));
@@ -191,8 +186,7 @@ impl<const D: usize> Problem<D> for Trials<D> {
     fn discretisation(&self) -> Discretisation {
         let longest = courant_time_step(MOST, self.setup.h, self.speed);
         // The lattice has no walls.
-        let wall = String::new();
-        Discretisation { wall, ..self.setup.regular(D, longest) }
+        Discretisation { wall: String::new(), ..self.setup.regular(D, longest) }
     }
 
     fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {
@@ -221,8 +215,7 @@ impl<const D: usize> Problem<D> for Trials<D> {
                 break;
             }
         }
-        let grew = growth >= GROWN;
-        seen.0.push(grew);
+        seen.0.push(growth >= GROWN);
         Ok(row! {
             "trial (-)": seen.0.len() as f64,
             "cfl (-)": cfl,

@@ -254,8 +254,7 @@ fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
     let mut own: Vec<&Water> = runs.iter().filter(judged).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
     let kinds = crate::distinct(own.iter().map(|w| (w.scheme, &w.set)));
-    let of_kind = |kind| own.iter().filter(|w| (w.scheme, &w.set) == kind).copied().collect();
-    kinds.into_iter().map(of_kind).collect()
+    kinds.into_iter().map(|kind| own.iter().filter(|w| (w.scheme, &w.set) == kind).copied().collect()).collect()
 }
 
 /// Whether an error falls from level to level.
@@ -325,8 +324,7 @@ fn starts(runs: &[Water]) -> Vec<Finding> {
 
 /// Effect of the time step on the front.
 fn time_steps(runs: &[Water]) -> Vec<Finding> {
-    let ours = |w: &Water| w.remedy() == FbarConsistent && w.is_flip();
-    let found = changed(runs, ours, "cfl").map(|(run, own)| {
+    let found = changed(runs, |w| w.remedy() == FbarConsistent && w.is_flip(), "cfl").map(|(run, own)| {
         let (value, exact) = (run.metric(FRONT_X_EARLY), own.metric(FRONT_X_EARLY));
         let source = format!("{} {}: CFL number {} against {}", run.scheme, run.level, run.cfl, own.cfl);
         Finding::within(FRONT_X_EARLY, value, exact, TIME_STEP * run.h, source)

@@ -38,8 +38,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
 
 /// Our run among those that are compared over the levels.
 fn on_the_ladder<'g>(runs: &Exhibit<'_, 'g>, basis: BasisName, level: &str) -> Option<&'g Record> {
-    let ours = |r: &&&Record| (r.basis(), r.remedy()) == (basis, FbarConsistent);
-    let mut own = runs.records.iter().filter(ours).copied();
+    let mut own = runs.records.iter().filter(|r| (r.basis(), r.remedy()) == (basis, FbarConsistent)).copied();
     own.find(|r| r.level == level && r.set.iter().any(|s| s == LADDER))
 }
 
@@ -161,7 +160,6 @@ fn beside_front<'a>(panel: Panel<'a>, column: &str) -> Panel<'a> {
     if column != "front" {
         return panel;
     }
-    let early = |(t, _): &(f64, f64)| *t <= 1.05 * time_scale();
-    let points = front_curve().into_iter().filter(early).collect();
+    let points = front_curve().into_iter().filter(|(t, _)| *t <= 1.05 * time_scale()).collect();
     panel.reference(format!("inviscid ± {} m", uncertainty()), points)
 }

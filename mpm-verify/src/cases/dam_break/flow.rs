@@ -123,8 +123,7 @@ impl Flow {
 
     /// Time (s) at which the front passes `x` (m).
     fn arrival(&self, x: f64) -> f64 {
-        let passes = |pair: &&[State]| pair[0].front < x && pair[1].front >= x;
-        self.rows.windows(2).find(passes).map_or(f64::NAN, |pair| {
+        self.rows.windows(2).find(|pair| pair[0].front < x && pair[1].front >= x).map_or(f64::NAN, |pair| {
             let share = (x - pair[0].front) / (pair[1].front - pair[0].front);
             pair[0].time + share * (pair[1].time - pair[0].time)
         })
@@ -151,10 +150,7 @@ impl Flow {
             .filter(|pair| until(&pair[1]))
             .map(|pair| (pair[1].front - pair[0].front) / (pair[1].time - pair[0].time));
         let energy: Vec<f64> = std::iter::once(at_start).chain(self.rows.iter().map(State::energy)).collect();
-        let motion = || {
-            let rows = self.rows.iter().map(State::motion);
-            std::iter::once(at_start).chain(rows)
-        };
+        let motion = || std::iter::once(at_start).chain(self.rows.iter().map(State::motion));
         let gains = energy.windows(2).map(|pair| pair[1] - pair[0]);
         let all = |f: fn(&State) -> f64| self.rows.iter().map(f);
         vec![

@@ -44,8 +44,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
         gaps,
         curves: |_| {
             let (time, front) = front_curve().into_iter().unzip();
-            let columns = vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)];
-            vec![("reference-front.csv", columns)]
+            vec![("reference-front.csv", vec![("time (s)".to_owned(), time), ("front (m)".to_owned(), front)])]
         },
         ..Foreign::of::<2, Dam>(groups)
     }
@@ -63,8 +62,7 @@ fn of_flow(given: &Given) -> Measured {
         ..State::default()
     };
     let rows = (0..given.column(&TIME).len()).map(row).collect();
-    let density = given.setup::<DamBreak>()?.density;
-    Ok(Flow { rows }.metrics(density, given.spec.level.h))
+    Ok(Flow { rows }.metrics(given.setup::<DamBreak>()?.density, given.spec.level.h))
 }
 
 /// The rows are to show the front while it is compared, the area at its time, and the energies over the whole flow.

@@ -138,8 +138,7 @@ fn plan() -> Plan {
     let flip = |remedies: &[RemedyName]| pairs(&BASES, remedies);
     let none = RemedyName::None;
     let mut all = flip(&[none, FbarRecursive, FbarTotal, FbarConsistent]);
-    let apic = |s: &Scheme| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic);
-    all.extend(all.clone().iter().map(apic));
+    all.extend(all.clone().iter().map(|s| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic)));
     all.extend(flip(&[FbarRate]));
     all.push(Scheme::flip(Bspline3, FbarConsistent));
     let ours = flip(&[FbarConsistent]);

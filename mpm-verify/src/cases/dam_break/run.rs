@@ -67,8 +67,7 @@ impl Dam {
     /// The water behind the gate: exactly at rest, or without weight yet.
     fn behind_the_gate(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
         let rise = if self.is_staged() { RISE } else { 0.0 };
-        let gate = gate_of(self.setup.basis(), self.setup.h);
-        let scene = self.tank(rise)?.constrain(gate);
+        let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
         let mut settings = self.settings()?;
         if self.is_staged() {
             settings = settings.filter_forces(LocalDamping::new(DAMPING)?);
@@ -96,8 +95,7 @@ impl Dam {
 
     fn settings(&self) -> Result<Settings<2>, Fault> {
         let flip = (-self.setup.pic_rate * self.dt).exp();
-        let settings = self.setup.settings(self.dt, 0.0)?;
-        Ok(settings.transfer(Flip::new(flip)?))
+        Ok(self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(flip)?))
     }
 
     fn particles(&self) -> Result<Particles<2>, Fault> {
@@ -112,8 +110,7 @@ impl Dam {
 /// The tank, open above.
 fn grid(h: f64) -> Result<Grid<2>, Fault> {
     let cells = |length: f64| (length / h).round() as usize;
-    let upward = Axis::bounded(0.0, cells(HEIGHT), (Side::Wall, Side::Open));
-    Grid::new(h, [Axis::walls(0.0, cells(TANK)), upward])
+    Grid::new(h, [Axis::walls(0.0, cells(TANK)), Axis::bounded(0.0, cells(HEIGHT), (Side::Wall, Side::Open))])
 }
 
 /// Particles row by row from the floor up, in columns from the back wall.
@@ -199,8 +196,7 @@ impl Dam {
         let now = impulses(run);
         let force = |place: usize, axis: usize| (now[place][axis] - before[place][axis]) / ROW;
         let pressures_now = pressures(run, Field::MeanStress);
-        let averaged = pressures(run, Field::AveragedMeanStress);
-        let board = checkerboard(&pressures_now, &averaged);
+        let board = checkerboard(&pressures_now, &pressures(run, Field::AveragedMeanStress));
         let in_tension = pressures_now.iter().filter(|p| **p < 0.0).count();
         let totals = run.totals();
         let p = run.particles();
@@ -250,8 +246,7 @@ impl Problem<2> for Dam {
         let pressure = water.density * GRAVITY * DEPTH;
         let why =
             "above which weight compresses the water by more than the 0.1 % that the force on the gate is granted";
-        let what = "density g H / bulk_modulus";
-        require_quotient(what, pressure / water.bulk_modulus, 0.0..=1e-3, why)?;
+        require_quotient("density g H / bulk_modulus", pressure / water.bulk_modulus, 0.0..=1e-3, why)?;
         let law = NewtonianFluid::new(water.bulk_modulus, setup.viscosity)?;
         // The largest step of the CFL number of which a whole number makes a row.
         let most = courant_time_step(setup.cfl, setup.h, law.wave_speed(water.density));

@@ -13,8 +13,7 @@ const LOOK: f64 = 0.005;
 
 /// Columns of particles of a disc: positions and ends (cells).
 fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
-    let alike = |[a, _]: &[f64; 2], [b, _]: &[f64; 2]| a == b;
-    let ends = disc.chunk_by(alike).map(|column| {
+    let ends = disc.chunk_by(|[a, _], [b, _]| a == b).map(|column| {
         let ys = || column.iter().map(|[_, y]| y / h);
         let x = column[0][0] / h;
         let [low, high] = [ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max)];

@@ -65,8 +65,7 @@ impl Setup<Discs> {
         let ([[x0, y0], _], aside) = (CENTRES, self.aside());
         let first = by_columns([along; 2], spacing).filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS);
         let first: Vec<[f64; 2]> = first.map(|[x, y]| [x + aside, y - aside]).collect();
-        let mirrored = |[x, y]: &[f64; 2]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y];
-        let second: Vec<[f64; 2]> = first.iter().map(mirrored).collect();
+        let second: Vec<[f64; 2]> = first.iter().map(|[x, y]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y]).collect();
 
         [first, second].concat()
     }
@@ -154,8 +153,7 @@ impl Collision {
             let own = self.sign(*id) * speed;
             (v[0] - own).hypot(v[1] - own) / (speed * 2f64.sqrt())
         });
-        let strains = p.jacobian.iter().map(|j| (j - 1.0).abs());
-        [changes.fold(0.0, f64::max), strains.fold(0.0, f64::max)]
+        [changes.fold(0.0, f64::max), p.jacobian.iter().map(|j| (j - 1.0).abs()).fold(0.0, f64::max)]
     }
 
     /// Distance of the centres of mass (m).
@@ -260,8 +258,7 @@ impl Problem<2> for Collision {
                 Bodies::new(law, disc(0))?.and(law, disc(self.half))?.sliding(0.0)?
             }
         };
-        let scene = Scene::new(grid, bodies);
-        self.setup.moving(scene, self.setup.timing().0, 0.0)
+        self.setup.moving(Scene::new(grid, bodies), self.setup.timing().0, 0.0)
     }
 
     fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {

@@ -72,8 +72,7 @@ impl Falling {
         let barrier = Barrier::carrying(force, self.reach())?;
         let face = RigidFace::half_space(1, End::Lo, self.floor())?;
         let stick = barrier.stiffness(0.5 * self.reach());
-        let friction = Friction::new(self.setup.friction, stick)?;
-        Ok(RigidContact::new(face, barrier).with_friction(friction))
+        Ok(RigidContact::new(face, barrier).with_friction(Friction::new(self.setup.friction, stick)?))
     }
 
     /// Extends the extremes by the state after a step.
@@ -163,8 +162,7 @@ impl Problem<2> for Falling {
             Axis::open(-(beside as f64) * h, 2 * beside + cells(SIDE))
         };
         let grid = Grid::new(h, [axis(0), axis(1)])?;
-        let body = Bodies::new(self.law, particles)?;
-        let scene = Scene::new(grid, body).contact(self.contact()?);
+        let scene = Scene::new(grid, Bodies::new(self.law, particles)?).contact(self.contact()?);
         self.setup.moving(scene, self.dt, 0.0)
     }
 

@@ -326,8 +326,7 @@ fn collapses() -> ResultTable {
         Column::metric("E_kin at the end", KINETIC_END, share(2)),
         Column::cpu(),
     ];
-    let moving = |r: &Record| !is_static(r);
-    ResultTable::new("excavation-collapses", moving, &[SCHEME, CHANGED, CELLS], columns)
+    ResultTable::new("excavation-collapses", |r| !is_static(r), &[SCHEME, CHANGED, CELLS], columns)
 }
 
 /// Errors of what is conserved.
@@ -339,8 +338,7 @@ fn balances() -> ResultTable {
         Column::metric("gained", ENERGY_GAIN, SHORT),
         Column::metric("momentum off by", MOMENTUM_ERROR, SHORT),
     ];
-    let moving = |r: &Record| !is_static(r) && r.level == "h0.05";
-    ResultTable::new("excavation-balances", moving, &[SCHEME, CHANGED], columns)
+    ResultTable::new("excavation-balances", |r| !is_static(r) && r.level == "h0.05", &[SCHEME, CHANGED], columns)
 }
 
 /// Plastic strain of the finest run of the midpoint rule with the default parameters, beside Figure 9 of the paper.
@@ -368,8 +366,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
         outline: vec![(0.0, 0.0), (foot, 0.0), (foot, cut), (crest, HEIGHT), (0.0, HEIGHT)],
         ..field_panel(record, &table, title, "plastic_strain")
     };
-    let panels = tables.into_iter().map(panel).collect();
-    Fields::new(panels, "equivalent plastic strain (–)", (0.0, STRAIN))
+    Fields::new(tables.into_iter().map(panel).collect(), "equivalent plastic strain (–)", (0.0, STRAIN))
         .columns(1)
         .within(((0.0, foot + BEYOND), (-0.05, 1.1 * HEIGHT)))
         .draw(gallery, "plastic-strain", "Equivalent plastic strain after the toe was taken away; the paper's Figure 9. The outline is that of the cut slope.")

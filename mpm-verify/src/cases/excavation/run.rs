@@ -79,8 +79,7 @@ fn crest_drop(start: &[[f64; 2]], run: &dyn Simulation<2>) -> f64 {
     let now = p.seeded(|k| p.position[k][1]);
     let first = p.seeded(|k| p.reference[k][1]);
     let top = HEIGHT - 2.0 * p.half_size[1];
-    let drops = start.iter().zip(&now).zip(&first).filter(|(_, y)| **y > top).map(|((a, b), _)| a[1] - b);
-    drops.fold(0.0, f64::max)
+    start.iter().zip(&now).zip(&first).filter(|(_, y)| **y > top).map(|((a, b), _)| a[1] - b).fold(0.0, f64::max)
 }
 
 /// Stresses (Pa) in seeding order.
@@ -271,8 +270,7 @@ impl Problem<2> for Ground {
         let dissipated = self.energies(phase.run.as_mut()).dissipated;
         let run = phase.run.as_ref();
         let flowed = run.particles().seeded(|k| strain[k]);
-        let changes = flowed.iter().zip(&seen.flowed).map(|(a, b)| a - b);
-        seen.flow_least = changes.fold(seen.flow_least, f64::min);
+        seen.flow_least = flowed.iter().zip(&seen.flowed).map(|(a, b)| a - b).fold(seen.flow_least, f64::min);
         seen.flowed = flowed;
         let excess = self.setup.yield_excess(run, &strain);
         seen.yield_excess = Some(seen.yield_excess.map_or(excess, |most| most.max(excess)));
@@ -332,8 +330,7 @@ impl Problem<2> for Ground {
 
     fn snapshot(&self, seen: &Seen, phase: &mut Phase<2>) -> Option<Snapshot> {
         let time = phase.run.time();
-        let near = |kept: &f64| (time - kept).abs() < 1e-6;
-        (seen.stage.moves() && KEPT.iter().any(near)).then(|| Snapshot {
+        (seen.stage.moves() && KEPT.iter().any(|kept| (time - kept).abs() < 1e-6)).then(|| Snapshot {
             time: seen.before + time,
             columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
         })

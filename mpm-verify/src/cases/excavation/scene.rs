@@ -128,8 +128,7 @@ impl Setup<Excavation> {
         } else {
             Axis::bounded(0.0, up, (Side::Wall, Side::Open))
         };
-        let across = Axis::bounded(0.0, along, (Side::Wall, Side::Open));
-        Grid::new(self.h, [across, upward])
+        Grid::new(self.h, [Axis::bounded(0.0, along, (Side::Wall, Side::Open)), upward])
     }
 
     /// Coulomb's friction beneath the particles, with a barrier that just touches the lowest ones.
@@ -140,8 +139,7 @@ impl Setup<Excavation> {
         let barrier = Barrier::carrying_at(weight, gap, reach)?;
         let lowest = 0.5 * self.pitch();
         let face = RigidFace::half_space(1, End::Lo, lowest - 0.5 * (gap + reach))?;
-        let friction = Friction::new(self.friction, barrier.stiffness(gap))?;
-        Ok(RigidContact::new(face, barrier).with_friction(friction))
+        Ok(RigidContact::new(face, barrier).with_friction(Friction::new(self.friction, barrier.stiffness(gap))?))
     }
 
     /// Settings of a stage.
@@ -190,8 +188,7 @@ impl Ground {
             Some(QuasiStatic) => vec!["alpha", "delta", "lumped", "cfl", "duration"],
             None => {
                 let solvers = ["quasi-static", "midpoint", "newmark"];
-                let kind = "solver of the excavation";
-                return Err(Error::unknown(kind, setup.scheme.solver(), solvers));
+                return Err(Error::unknown("solver of the excavation", setup.scheme.solver(), solvers));
             }
         };
         foreign.push("wall");
@@ -208,8 +205,7 @@ impl Ground {
             [setup.crest + HEIGHT, HEIGHT, setup.foot()].map(|length| (length / spacing).round() as usize);
         let rows = (0..across).flat_map(|i| (0..up).map(move |j| (i, j)));
         // Centres on the face have i + j + 1 = `across`.
-        let inside = rows.filter(|(i, j)| i + j < across);
-        let (kept, wedge): (Vec<_>, Vec<_>) = inside.partition(|(i, _)| *i < foot);
+        let (kept, wedge): (Vec<_>, Vec<_>) = rows.filter(|(i, j)| i + j < across).partition(|(i, _)| *i < foot);
         let all = [kept.as_slice(), wedge.as_slice()].concat();
         let on_face = |(k, (i, j)): (usize, &(usize, usize))| (i + j + 1 == across).then_some(k);
         let centre = |k: usize| (k as f64 + 0.5) * spacing;
@@ -253,7 +249,6 @@ impl Ground {
         let scene = Scene::new(self.setup.grid()?, body).load(Gravity(Box::new(gravity))).constrain(roller(0, End::Lo));
         let scene =
             if self.setup.slides() { scene.contact(self.setup.contact()?) } else { scene.constrain(clamp(1, End::Lo)) };
-        let settings = self.setup.stage_settings(stage)?;
-        implicit(self.setup.scheme, scene, settings)
+        implicit(self.setup.scheme, scene, self.setup.stage_settings(stage)?)
     }
 }

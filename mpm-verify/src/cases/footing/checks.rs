@@ -353,8 +353,7 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Run<Footing>> = Run::all(records).collect();
     let found = |run: &Run<Footing>| {
         let (scheme, level) = (run.scheme, &run.level);
-        let same = |r: &&Run<Footing>| r.is_default() && r.scheme == scheme && r.level == *level;
-        let held = runs.iter().find(same)?.metric(NC_B);
+        let held = runs.iter().find(|r| r.is_default() && r.scheme == scheme && r.level == *level)?.metric(NC_B);
         let why = format!(
             "{scheme} {level}: a barrier on particles and held nodes; the edges of either are known to half a cell"
         );

@@ -98,8 +98,7 @@ fn panel_of_loads<'a>(title: String) -> Panel<'a> {
 
 /// The curve of vanishing elements beside. Smaller ground is stiffer on the way to the same limit load.
 fn with_elements<'a>(runs: &Exhibit, panel: Panel<'a>) -> Panel<'a> {
-    let full_size = |r: &&Record| r.changes_none_but(&["penetration"]);
-    if !runs.records.iter().all(full_size) {
+    if !runs.records.iter().all(|r| r.changes_none_but(&["penetration"])) {
         return panel;
     }
     let points = limit_curve().into_iter().map(|(s, q)| (1e3 * s, q));

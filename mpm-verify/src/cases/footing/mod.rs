@@ -143,8 +143,7 @@ const SMALL: [&str; 3] = ["domain_width=3", "domain_depth=3", "penetration=0.002
 /// The runs at the case's own parameters; where there are none, those on small ground, whose limit load is the same.
 fn own_runs(records: &[Record]) -> Vec<&Record> {
     let own = of_defaults(records);
-    let small = |r: &&Record| r.set == SMALL;
-    if own.is_empty() { records.iter().filter(small).collect() } else { own }
+    if own.is_empty() { records.iter().filter(|r| r.set == SMALL).collect() } else { own }
 }
 
 /// Five times the penetration, through either contact.
@@ -294,8 +293,7 @@ fn table_of_mean_stresses() -> ResultTable {
             let value = fixed(2).text(s.value);
             format!("; elements: {value} ± {:.2}", s.uncertainty)
         });
-        let title = format!("({}, {}) B{elements}", point[0], -point[1]);
-        Column::metric(title, metric, fixed(2))
+        Column::metric(format!("({}, {}) B{elements}", point[0], -point[1]), metric, fixed(2))
     };
     ResultTable::of("footing-mean-stress", |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level))
         .by(&[PAIR, OF_WIDTH])

@@ -96,8 +96,7 @@ impl Curve {
 
 fn document() -> Result<&'static Document, String> {
     static DOCUMENT: LazyLock<Option<Document>> = LazyLock::new(|| serde_json::from_str(SOLUTIONS).ok());
-    let unreadable = || "the stored reference can't be read".to_owned();
-    DOCUMENT.as_ref().ok_or_else(unreadable)
+    DOCUMENT.as_ref().ok_or_else(|| "the stored reference can't be read".to_owned())
 }
 
 /// The curve of vanishing elements as (s/B, q/s_u), to be drawn.

@@ -73,8 +73,7 @@ impl Setup<Footing> {
     }
 
     fn law(&self) -> Result<HenckyJ2, mpm_core::Error> {
-        let strength = Strength::undrained(self.undrained_strength)?;
-        HenckyJ2::new(self.young_modulus, self.poisson_ratio, strength)
+        HenckyJ2::new(self.young_modulus, self.poisson_ratio, Strength::undrained(self.undrained_strength)?)
     }
 
     /// The pace of the footing. Where there is no inertia, time is the penetration over B.
@@ -189,8 +188,7 @@ impl Pressing {
         if !self.setup.rough {
             return Ok(contact);
         }
-        let stiffness = barrier.stiffness((1.0 - GIVES_WAY) * reach);
-        Ok(contact.with_friction(Friction::rough(stiffness)?))
+        Ok(contact.with_friction(Friction::rough(barrier.stiffness((1.0 - GIVES_WAY) * reach))?))
     }
 
     /// Lead of the footing over the ground, over B, under a force (N/m).
@@ -202,8 +200,7 @@ impl Pressing {
 
     /// Force of the ground on the footing in the last step, upward (N/m).
     fn force_on_footing(&self, run: &dyn Simulation<2>) -> f64 {
-        let part = if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) };
-        run.on(part).force[1]
+        run.on(if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) }).force[1]
     }
 }
 

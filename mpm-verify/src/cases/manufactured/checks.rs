@@ -41,14 +41,12 @@ pub(in crate::cases) struct Wave {
 impl Wave {
     /// A wave of shear of this wave number.
     pub(in crate::cases) const fn shear(number: fn(&Parameters) -> f64) -> Self {
-        let shear = true;
-        Self { number, shear }
+        Self { number, shear: true }
     }
 
     /// A wave of pressure of this wave number.
     pub(in crate::cases) const fn pressure(number: fn(&Parameters) -> f64) -> Self {
-        let shear = false;
-        Self { number, shear }
+        Self { number, shear: false }
     }
 
     /// kh.
@@ -222,8 +220,7 @@ impl Ladder {
         let (first, last) = (runs.first()?, runs.last()?);
         let (name, set) = (metric.name, first.set.join(" "));
         let about = format!("{name} of {scheme} {} to {} {set}", first.level, last.level);
-        let point = |r: &&Record| (r.discretisation.h, r.metric(metric));
-        let points: Vec<(f64, f64)> = finest.iter().map(point).collect();
+        let points: Vec<(f64, f64)> = finest.iter().map(|r| (r.discretisation.h, r.metric(metric))).collect();
         let errors: Vec<f64> = runs.iter().map(|r| r.metric(metric)).collect();
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0]);
         Some(Self {
@@ -270,8 +267,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
         ),
         on_ladders(Gate::truth("error-falls", falls), of, |_, l| {
             let (about, why) = (format!("largest ratio of {}", l.about), "a consistent scheme converges");
-            let found = Finding::at_most(about, l.worst_ratio, 1.0, why);
-            matches!(l.claim, Claim::Second).then_some(found)
+            matches!(l.claim, Claim::Second).then_some(Finding::at_most(about, l.worst_ratio, 1.0, why))
         }),
         on_ladders(
             Gate::regression(
@@ -306,8 +302,7 @@ pub(in crate::cases) fn stress_order(claims: Claims) -> Check {
     let statement = "order of the rms error of σ at least 1 − 0.15, one less than that of u";
     on_ladders(Gate::truth("order-stress", statement), &[(STRESS_L2, claims)], |about, l| {
         let why = "gradients of a second-order displacement";
-        let found = Finding::above(about, l.order, FORMAL - 1.0 - SLACK, why);
-        matches!(l.claim, Claim::Second).then_some(found)
+        matches!(l.claim, Claim::Second).then_some(Finding::above(about, l.order, FORMAL - 1.0 - SLACK, why))
     })
 }
 

@@ -25,8 +25,7 @@ pub(in crate::cases) fn of_displacement<const D: usize>(
 /// Magnitudes of the displacement errors of all particles (m).
 pub(in crate::cases) fn of_displacements<const D: usize>(solution: &dyn Exact, run: &dyn Simulation<D>) -> Vec<f64> {
     let (p, t) = (run.particles(), run.time());
-    let error = |k| of_displacement(solution, p, k, t).norm();
-    (0..p.len()).map(error).collect()
+    (0..p.len()).map(|k| of_displacement(solution, p, k, t).norm()).collect()
 }
 
 /// Cauchy stress of a run, as it enters the forces, minus that of the exact motion (Pa), in the particles' order.
@@ -58,8 +57,7 @@ pub(in crate::cases) fn of_stresses<const D: usize>(
 
 /// Rms and largest of the errors of all particles, as two metrics.
 pub(in crate::cases) fn norms([l2, linf]: [Metric; 2], errors: &[f64]) -> [(Metric, f64); 2] {
-    let largest = errors.iter().copied().fold(0.0, f64::max);
-    [(l2, rms(errors.iter().copied())), (linf, largest)]
+    [(l2, rms(errors.iter().copied())), (linf, errors.iter().copied().fold(0.0, f64::max))]
 }
 
 /// Mass of the body (kg).

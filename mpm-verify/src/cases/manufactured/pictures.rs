@@ -13,8 +13,7 @@ pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f6
             .iter()
             .find(|r| r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok);
         let Some(run) = run else { continue };
-        let table = gallery.table(run, "particles.csv")?;
-        panels.push(field_panel(run, &table, scheme.title(), "mean_stress"));
+        panels.push(field_panel(run, &gallery.table(run, "particles.csv")?, scheme.title(), "mean_stress"));
     }
     let caption = format!("Mean stress of the particles at the end, at level {level}.");
     Fields::new(panels, "mean stress (Pa)", (-most, most)).columns(3).draw(gallery, "mean-stress", caption)

@@ -115,8 +115,7 @@ impl<K: Known> Scenario<K> {
     ) -> Result<Scene<D>, mpm_core::Error> {
         let (grid, walls) = self.surroundings()?;
         let body = Bodies::new(law, self.seed(dt)?)?;
-        let forcing = forcing(&self.solution);
-        Ok(Scene::new(grid, body).load(forcing).constrain_all(walls))
+        Ok(Scene::new(grid, body).load(forcing(&self.solution)).constrain_all(walls))
     }
 
     /// The grid and what holds the body, which must fill its cells: particles of the whole cells would be another body.
@@ -213,8 +212,7 @@ fn solved<const D: usize, P: ParameterSet>(
         other => other.build(),
     };
     let settings = setup.settings(dt, 0.0)?;
-    let settings = settings.transfer(Flip::new(number(FLIP))?).remedy(remedy);
-    mpm_solvers::solver(setup.scheme, scene, settings)
+    mpm_solvers::solver(setup.scheme, scene, settings.transfer(Flip::new(number(FLIP))?).remedy(remedy))
 }
 
 /// The body force that the motion needs.

@@ -42,10 +42,7 @@ pub(in crate::cases) fn own_orders(case: &str) -> ResultTable {
 /// Errors at the finest level and orders over all levels, of runs that a row has one of at each level.
 pub(in crate::cases) fn orders(name: &str, shows: fn(&Record) -> bool) -> ResultTable {
     let finest = |title, metric, format: Format| {
-        Column::row(title, move |runs, _| {
-            let error = runs.last().map_or(f64::NAN, |r| r.metric(metric));
-            format.text(error)
-        })
+        Column::row(title, move |runs, _| format.text(runs.last().map_or(f64::NAN, |r| r.metric(metric))))
     };
     let levels = Column::row("levels", |runs, _| match runs {
         [first, .., last] => format!("{}–{}", first.level, last.level),
@@ -104,8 +101,7 @@ pub(in crate::cases) fn locking<const N: usize>(name: &str, places: [At; N]) -> 
             }
         })
     };
-    let shows = |r: &Record| is_flip(r) && r.remedy() != FbarRecursive;
-    ResultTable::new(name, shows, &[SCHEME], places.map(column))
+    ResultTable::new(name, |r| is_flip(r) && r.remedy() != FbarRecursive, &[SCHEME], places.map(column))
 }
 
 /// The errors of u and of the mean stress over those of no remedy on the same basis, at levels of a set of parameters.
@@ -126,8 +122,7 @@ pub(in crate::cases) fn price<const N: usize>(name: &str, levels: [&'static str;
         let compared = [RemedyName::None, FbarRate, FbarConsistent];
         is_flip(r) && changes(r, set) && compared.contains(&r.remedy())
     };
-    let columns = levels.into_iter().flat_map(of_level);
-    ResultTable::new(name, shows, &[SCHEME], columns)
+    ResultTable::new(name, shows, &[SCHEME], levels.into_iter().flat_map(of_level))
 }
 
 /// Errors and what they cost, over solvers and their steps.
@@ -141,8 +136,7 @@ pub(in crate::cases) fn cost(name: &str, levels: [&'static str; 3], shows: fn(&R
         ]
     };
     let cfl: Label = ("CFL", |r| r.parameters.text(CFL));
-    let columns = levels.into_iter().flat_map(of_level);
-    ResultTable::new(name, shows, &[SCHEME, cfl], columns)
+    ResultTable::new(name, shows, &[SCHEME, cfl], levels.into_iter().flat_map(of_level))
 }
 
 /// Metrics of the runs that change `set`, each with its title.

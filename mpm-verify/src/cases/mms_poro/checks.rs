@@ -98,14 +98,12 @@ fn order(metric: Metric, runs: &[&Record]) -> (String, f64) {
     let finest = runs[runs.len() - 1];
     let set = finest.set.join(" ");
     let name = format!("order of {} of {} to {} {set}", metric.name, finest.scheme(), finest.level);
-    let order = observed_order(runs, |r| r.discretisation.h, metric);
-    (name.trim_end().to_owned(), order)
+    (name.trim_end().to_owned(), observed_order(runs, |r| r.discretisation.h, metric))
 }
 
 fn orders_in_time(records: &[Record]) -> Vec<Finding> {
     let mut ladders: BTreeMap<(Scheme, &str), Vec<&Record>> = BTreeMap::new();
-    let own = |r: &&Record| is_of_rates(r) && r.changes_none_but(&["source", "steps"]);
-    for r in records.iter().filter(own) {
+    for r in records.iter().filter(|r| is_of_rates(r) && r.changes_none_but(&["source", "steps"])) {
         ladders.entry((r.scheme(), &r.level)).or_default().push(r);
     }
     let found = |((scheme, level), mut runs): ((Scheme, &str), Vec<&Record>)| {

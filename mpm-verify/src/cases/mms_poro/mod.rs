@@ -69,8 +69,7 @@ pub(super) fn case() -> Case {
     Case::of::<2, Moving>("mms-poro", "Manufactured motion of solid and water", ALL)
         .planned(plan())
         .breaks_down(|r| {
-            let body = Setup::<Motion>::of_record(r).ok()?;
-            (body.load() > HEAVY)
+            (Setup::<Motion>::of_record(r).ok()?.load() > HEAVY)
                 .then_some("loads of several times Young's modulus: equilibria out of reach of Newton's method")
         })
         .described("A body full of water between rollers, drained at its top, is deformed by a body force and a source of water \

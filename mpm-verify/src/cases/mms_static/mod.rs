@@ -117,8 +117,7 @@ fn over_cells(name: &str, set: &'static str) -> ResultTable {
         Column::value(format!("error of u, {level}"), tables::relative_error, share(2)).of(move |r| r.level == level)
     });
     let titled = levels.map(|level| (level, format!("of σ_m (Pa), {level}")));
-    let stress = Column::levels(titled, MEAN_STRESS_L2, SHORT);
-    let columns = errors.into_iter().chain(stress);
+    let columns = errors.into_iter().chain(Column::levels(titled, MEAN_STRESS_L2, SHORT));
     ResultTable::new(name, move |r| tables::changes(r, set), &[SCHEME], columns)
 }
 

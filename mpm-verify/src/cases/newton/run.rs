@@ -94,8 +94,7 @@ impl Loaded {
         let lowest = p.reference.iter().zip(&p.position).filter(|([_, y], _)| *y < self.setup.pitch());
         let gaps: Vec<f64> = lowest.map(|(_, [_, y])| y - floor).collect();
         let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
-        let exact = self.barrier()?.gap(share * self.weight * self.setup.pitch());
-        Ok([mean, exact])
+        Ok([mean, self.barrier()?.gap(share * self.weight * self.setup.pitch())])
     }
 
     /// Height of the floor (m).

@@ -100,8 +100,7 @@ impl Problem<1> for Bar {
         let pressed = speed * dt / setup.h * f64::from(degree) * (1.0 - first).powi(degree - 1);
         let why = "the strain of the first step at the wall, which would turn a particle inside out";
         require_quotient("cfl times mach and the slope of the function at the wall", pressed, 0.0..=0.95, why)?;
-        let steps = (WAY * LENGTH / jump.speed / dt).ceil() as u64;
-        Ok(Self { setup, law, speed, dt, steps, jump })
+        Ok(Self { setup, law, speed, dt, steps: (WAY * LENGTH / jump.speed / dt).ceil() as u64, jump })
     }
 
     fn discretisation(&self) -> Discretisation {

@@ -78,8 +78,7 @@ pub(super) fn case() -> Case {
 }
 
 fn plan() -> Plan {
-    let remedies = [RemedyName::None, FbarConsistent];
-    let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &remedies);
+    let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]);
     let all = pairs(&[Gimp, Bspline2], &REMEDIES);
     Plan::of(LEVELS)
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.

@@ -47,8 +47,7 @@ pub(super) struct Seen {
 /// Largest factor at which the slope stands and least at which it fails, of those tried.
 pub(super) fn bracket(trials: &[Trial]) -> (f64, f64) {
     let of = |fails| trials.iter().filter(move |t| t.fails == fails).map(|t| t.factor);
-    let stands = of(false).fold(1.0, f64::max);
-    (stands, of(true).fold(f64::INFINITY, f64::min))
+    (of(false).fold(1.0, f64::max), of(true).fold(f64::INFINITY, f64::min))
 }
 
 impl Setup<Stability> {

@@ -51,8 +51,7 @@ impl Cloud<'_> {
     }
 
     fn about(&self, name: &str) -> String {
-        let text = format!("{name} of {} {} {}", self.scheme, self.level, self.set.join(" "));
-        text.trim_end().to_owned()
+        format!("{name} of {} {} {}", self.scheme, self.level, self.set.join(" ")).trim_end().to_owned()
     }
 
     /// Twelve times the variance of the centre of mass of a cell, of a judged run.
@@ -150,8 +149,7 @@ fn softens(records: &[Record]) -> Vec<Finding> {
     let found = runs.iter().filter(|c| c.is_judged() && c.layout == Layout::Random).filter_map(|run| {
         let lattice = run.like(&runs, Layout::Lattice, run.ppc_per_direction)?;
         let why = "strains that answer the noise store less than none: the mean stiffness is that of exact quadrature less their energy";
-        let bound = lattice.metric(SOFTENING);
-        Some(Finding::above(run.about(SOFTENING.name), run.metric(SOFTENING), bound, why))
+        Some(Finding::above(run.about(SOFTENING.name), run.metric(SOFTENING), lattice.metric(SOFTENING), why))
     });
     found.collect()
 }

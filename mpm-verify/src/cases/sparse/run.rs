@@ -43,8 +43,7 @@ impl Analysis for Clouds {
             Scheme::Explicit(_) => false,
             Scheme::Implicit(parts) if parts.rule == RuleName::QuasiStatic => true,
             other => {
-                let solvers = ["explicit", "quasi-static"];
-                return Err(Error::unknown("solver of clouds", other.solver(), solvers));
+                return Err(Error::unknown("solver of clouds", other.solver(), ["explicit", "quasi-static"]));
             }
         };
         if setup.layout == Layout::Holes && setup.ppc_per_direction < 2 {
@@ -88,8 +87,7 @@ impl Analysis for Clouds {
         let mut run = self.begin(k)?;
         let found = finds_equilibrium((0..self.steps).try_for_each(|_| run.step()))?;
         let found = found.then(|| self.errors(run.as_mut()));
-        let work = run.work().into();
-        Ok(Cloud { found, work })
+        Ok(Cloud { found, work: run.work().into() })
     }
 
     fn row(&self, k: usize, cloud: &Cloud) -> Row {
@@ -207,10 +205,7 @@ impl Clouds {
         let p = run.particles();
         let exact = |k: usize| solution.displacement(&vector(&p.reference[k]), t);
         let off = |k: usize| errors::of_displacement(solution, p, k, t);
-        let stress_of = |k: usize| {
-            let x = vector(&p.reference[k]);
-            solution.first_piola(&x, t).norm()
-        };
+        let stress_of = |k: usize| solution.first_piola(&vector(&p.reference[k]), t).norm();
         let all = || 0..p.len();
         let along: f64 = all().map(|k| (exact(k) + off(k)).dot(&exact(k))).sum();
         let squares: f64 = all().map(|k| exact(k).norm_squared()).sum();

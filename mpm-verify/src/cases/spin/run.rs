@@ -78,13 +78,11 @@ impl Problem<2> for Spin {
             let earlier = [cos * x - sin * y, sin * x + cos * y];
             *v = [-self.omega * earlier[1], self.omega * earlier[0]];
         }
-        let scene = Scene::new(grid, Bodies::new(self.law, particles)?);
-        self.setup.explicit(scene, self.dt, 0.0)
+        self.setup.explicit(Scene::new(grid, Bodies::new(self.law, particles)?), self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
-        let rows = (ROWS * self.setup.turns).ceil() as u64;
-        seen.sample(phase, [self.steps, rows], observe)
+        seen.sample(phase, [self.steps, (ROWS * self.setup.turns).ceil() as u64], observe)
     }
 
     fn progress(&self, _: &Rows, phase: &Phase<2>) -> f64 {

@@ -59,8 +59,7 @@ impl<const D: usize> Memoryless for Held<D> {}
 impl<const D: usize> Constraint<D> for Held<D> {
     fn prescribe(&self, grid: &Grid<D>, x: &[f64; D], axis: usize) -> Option<f64> {
         let from_middle = |a: usize| x[a] - self.middle[a];
-        let beyond = |a: usize| from_middle(a).abs() >= self.beyond - 1e-9 * grid.h;
-        let held = (0..D).any(beyond);
+        let held = (0..D).any(|a| from_middle(a).abs() >= self.beyond - 1e-9 * grid.h);
         held.then(|| self.rate * from_middle(axis))
     }
 
@@ -148,8 +147,7 @@ impl Stretching {
     fn predicted_noise(&self, end: f64) -> f64 {
         let lattice = self.lattice();
         let per_cell = self.setup.ppc_per_direction as f64;
-        let within = |s: &f64| (s - 1.0).abs() <= (end - 1.0).abs();
-        let each = self.stretches(LOOK).take_while(within);
+        let each = self.stretches(LOOK).take_while(|s| (s - 1.0).abs() <= (end - 1.0).abs());
         each.map(|s| lattice.noise(per_cell / s)).fold(0.0, f64::max) * (self.setup.dimension as f64).sqrt()
     }
 
@@ -166,8 +164,7 @@ impl Stretching {
         let exact = self.state(Self::stretch::<D>(run))[0];
         let stress = run.force_stress();
         let end = FREE as f64 * self.setup.h;
-        let places = run.particles().position.iter().zip(&stress);
-        let free = places.filter(|(x, _)| x.iter().all(|x| x.abs() < end));
+        let free = run.particles().position.iter().zip(&stress).filter(|(x, _)| x.iter().all(|x| x.abs() < end));
         let shares: Vec<f64> = free.flat_map(|(_, s)| (0..D).map(move |a| s.get(a, a) / exact)).collect();
         if shares.is_empty() {
             return [0.0, 1.0];
@@ -208,8 +205,7 @@ impl<const D: usize> Problem<D> for Stretching {
         let count = along.len().pow(D as u32);
         let places = (0..count).map(|k| std::array::from_fn(|a| place(k, a)));
         let places = self.setup.start_at(places);
-        let volume = size.powi(D as i32);
-        let mut particles = Particles::new(places, volume, DENSITY, [0.5 * size; D])?;
+        let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = x.map(|x| self.rate * x);
         }
@@ -220,12 +216,10 @@ impl<const D: usize> Problem<D> for Stretching {
         let scene = Scene::new(grid, Bodies::new(self.law, particles)?).constrain(held);
         match self.setup.scheme {
             Scheme::Explicit(e) => {
-                let settings = Settings::new(self.dt).remedy(e.remedy.build());
-                mpm_solvers::solver(self.setup.scheme, scene, settings)
+                mpm_solvers::solver(self.setup.scheme, scene, Settings::new(self.dt).remedy(e.remedy.build()))
             }
             Scheme::Implicit(_) | Scheme::Poro(_) => {
-                let settings = implicit::Settings::new(self.dt);
-                mpm_solvers::implicit(self.setup.scheme, scene, settings)
+                mpm_solvers::implicit(self.setup.scheme, scene, implicit::Settings::new(self.dt))
             }
         }
     }
@@ -242,8 +236,7 @@ impl<const D: usize> Problem<D> for Stretching {
         }
         let [mean, error] = self.stresses(phase.run.as_mut());
         let h = self.setup.h;
-        let places = phase.run.particles().position.iter();
-        let apart = self.lattice().parted(places.map(|x| x[0] / h).collect());
+        let apart = self.lattice().parted(phase.run.particles().position.iter().map(|x| x[0] / h).collect());
         seen.kept = mean;
         seen.errors.push([stretch, error]);
         if mean < TORN {

@@ -104,8 +104,7 @@ fn orders(records: &[Record], own: impl Fn(&Record) -> bool, metric: Metric) -> 
         let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
         Some((format!("order in h of {} of {kind}", metric.name), order))
     };
-    let ladders = ladders(records, own, DECIDING);
-    ladders.into_iter().filter_map(order).collect()
+    ladders(records, own, DECIDING).into_iter().filter_map(order).collect()
 }
 
 /// Allowance for the settlement of a run beside the error of its cells: the reference's uncertainty and finite strain.
@@ -130,8 +129,7 @@ fn settlements(records: &[Record]) -> Vec<Finding> {
         let why = "finite elements of Taylor and Hood, and Roache's index of three levels";
         Some(Finding::within(name, ratios[2], 1.0, bound, why))
     };
-    let ladders = ladders(records, is_small, DECIDING);
-    ladders.into_iter().filter_map(of).collect()
+    ladders(records, is_small, DECIDING).into_iter().filter_map(of).collect()
 }
 
 fn squares(records: &[Record]) -> Vec<Finding> {
@@ -144,8 +142,7 @@ fn squares(records: &[Record]) -> Vec<Finding> {
         let why = "finite elements of Taylor and Hood, and Roache's index of two levels";
         Some(Finding::within(name, ratio(fine), 1.0, bound, why))
     };
-    let own = |r: &Record| is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED);
-    ladders(records, own, 2).into_iter().filter_map(of).collect()
+    ladders(records, |r| is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED), 2).into_iter().filter_map(of).collect()
 }
 
 fn uniform(records: &[Record]) -> Vec<Finding> {
@@ -156,8 +153,7 @@ fn uniform(records: &[Record]) -> Vec<Finding> {
     }
     let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
     let metric = format!("order in Δt of {}", UNIFORM_ERROR.name);
-    let why = "backward Euler's rule of the return to the yield surface";
-    vec![Finding::above(metric, order, 1.0 - SLACK, why)]
+    vec![Finding::above(metric, order, 1.0 - SLACK, "backward Euler's rule of the return to the yield surface")]
 }
 
 fn one_limit(records: &[Record]) -> Vec<Finding> {
@@ -185,7 +181,6 @@ fn limits(records: &[Record]) -> Vec<Finding> {
         let bound = index(over, 1.0, true).bound + moved;
         Some(Finding::within(metric, over[2], 1.0, bound, why))
     };
-    let own = |r: &Record| is_set(r, LIMIT_LOAD) || is_set(r, LIMIT_SETTLEMENT);
-    let ladders = ladders(records, own, DECIDING);
+    let ladders = ladders(records, |r| is_set(r, LIMIT_LOAD) || is_set(r, LIMIT_SETTLEMENT), DECIDING);
     ladders.into_iter().filter_map(of).collect()
 }

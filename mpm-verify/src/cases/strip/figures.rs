@@ -45,14 +45,12 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
                 panels.push(of(record, &table, title(share * load), share * load));
             }
         }
-        let table = gallery.table(record, "particles.csv")?;
-        panels.push(of(record, &table, title(load), load));
+        panels.push(of(record, &gallery.table(record, "particles.csv")?, title(load), load));
     }
     if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
         let load = record.metric(LAST_LOAD);
-        let title = format!("Cam clay, q = {:.1} kPa", 1e-3 * load);
-        panels.push(of(record, &table, title, load));
+        panels.push(of(record, &table, format!("Cam clay, q = {:.1} kPa", 1e-3 * load), load));
     }
     Fields::new(panels, "p/q", PRESSURES).draw(
         gallery,
@@ -67,8 +65,7 @@ fn plastic_strain(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
     if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
-        let title = "Cam clay at its limit".to_owned();
-        panels.push(panel(record, &table, title, "plastic_strain", f64::log10));
+        panels.push(panel(record, &table, "Cam clay at its limit".to_owned(), "plastic_strain", f64::log10));
     }
     Fields::new(panels, "log₁₀ of the equivalent plastic strain", STRAINS).draw(
         gallery,
@@ -93,8 +90,7 @@ fn settlements(gallery: &mut Gallery) -> Result<(), Error> {
             panel.histories(gallery, runs, |_, t| t.pairs(["settlement", "load"], |s, q| (100.0 * s, 1e-3 * q)))?;
         let named = panel.by_run(|r, curve| {
             let given = if holds(r, |s| s.is_driven()) { "settlement, " } else { "" };
-            let name = format!("{given}{} steps", number(r, |s| f64::from(s.steps)));
-            Series { name, ..curve }
+            Series { name: format!("{given}{} steps", number(r, |s| f64::from(s.steps))), ..curve }
         });
         Ok(named.styled(|colour, curve| Series {
             marker: Marker::Circle,

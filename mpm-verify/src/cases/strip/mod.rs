@@ -216,10 +216,7 @@ fn is_limit(r: &Record) -> bool {
 
 fn tables() -> Vec<ResultTable> {
     const STEPS: Label = ("steps", |r| number(r, |s| f64::from(s.steps)).to_string());
-    const WATER: Label = ("water", |r| {
-        let undrained = holds(r, |s| s.is_undrained());
-        if undrained { "none flows" } else { "flows" }.to_owned()
-    });
+    const WATER: Label = ("water", |r| if holds(r, |s| s.is_undrained()) { "none flows" } else { "flows" }.to_owned());
     const SOIL: Label = ("soil", |r| r.parameters.text(LAW));
     const GHOST_U: Label = ("α_u", |r| number(r, |s| s.ghost_displacement).to_string());
     const GHOST_P: Label = ("α_p", |r| number(r, |s| s.ghost_pressure).to_string());
@@ -227,8 +224,7 @@ fn tables() -> Vec<ResultTable> {
     const LOADED: Label = ("load (Pa)", |r| number(r, |s| s.load).to_string());
     const SIZE: Label = ("B/h", |r| (1.0 / r.discretisation.h).round().to_string());
     let by_level = |metric, title: &str, format: Format| {
-        let titles = LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}")));
-        Column::levels(titles, metric, format)
+        Column::levels(LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}"))), metric, format)
     };
     let of_limit = LEVELS.map(|(level, n)| {
         let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));

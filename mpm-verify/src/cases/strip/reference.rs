@@ -37,8 +37,7 @@ impl Solution {
     /// Pressure over the load at the particle in column `i` and row `j` of particles `spacing` (m) apart.
     pub(super) fn pressure(&self, i: usize, j: usize) -> f64 {
         let row = (self.pressure.len() as f64).sqrt().round() as usize;
-        let value = self.pressure.get(j * row + i);
-        value.map_or(f64::NAN, |p| UNIT * p)
+        self.pressure.get(j * row + i).map_or(f64::NAN, |p| UNIT * p)
     }
 }
 

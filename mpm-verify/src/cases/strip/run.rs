@@ -84,8 +84,7 @@ impl Setup<Strip> {
     /// Places of the particles, as their pressures are stored.
     fn places<const D: usize>(&self) -> impl Iterator<Item = [usize; D]> + use<D> {
         let row = self.row();
-        let of = move |k: usize| from_fn(|a| k / row.pow(a as u32) % row);
-        (0..row.pow(D as u32)).map(of)
+        (0..row.pow(D as u32)).map(move |k| from_fn(|a| k / row.pow(a as u32) % row))
     }
 
     /// Settlement of the particle next to the axis at the surface, over the half width.
@@ -187,8 +186,7 @@ impl Setup<Strip> {
         let mut water = Water::new(porosity, Conductivity::KozenyCarman(c)).face(drained);
         let rests = self.surcharge();
         if rests > 0.0 {
-            let all = Face::loaded(particles, surface, top, move |_| downward(rests));
-            water = water.face(all);
+            water = water.face(Face::loaded(particles, surface, top, move |_| downward(rests)));
         }
         let (half_width, load, duration) = (self.half_width, self.load, self.duration);
         let scene = if self.is_driven() {
@@ -199,8 +197,7 @@ impl Setup<Strip> {
             scene.constrain(RigidNodes { extent, velocity, ramp: 0.0 })
         } else {
             let under = move |x: &[f64; D]| surface(x) && x[..up].iter().all(|x| *x < half_width);
-            let given = move |t: f64| downward(load * t / duration);
-            water = water.face(Face::loaded(particles, under, top, given));
+            water = water.face(Face::loaded(particles, under, top, move |t| downward(load * t / duration)));
             scene
         };
         let settings = Settings {

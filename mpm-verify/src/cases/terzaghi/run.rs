@@ -86,8 +86,7 @@ impl Setup<Terzaghi> {
 
     /// Largest nodal pressure over the load, minus one.
     fn overshoot(&self, run: &dyn Simulation<1>) -> f64 {
-        let nodes = run.pressure_nodes();
-        let most = nodes.iter().fold(0.0, |most: f64, (_, p)| most.max(*p));
+        let most = run.pressure_nodes().iter().fold(0.0, |most: f64, (_, p)| most.max(*p));
         beyond_rounding(most / self.load - 1.0)
     }
 

@@ -156,8 +156,7 @@ impl Beam<'_> {
 
 fn about(what: &str, run: &Beam) -> String {
     let set = run.set.join(" ");
-    let text = format!("{} {what} of {} {} {set}", FREQUENCY_RATIO.name, run.scheme, run.level);
-    text.trim_end().to_owned()
+    format!("{} {what} of {} {} {set}", FREQUENCY_RATIO.name, run.scheme, run.level).trim_end().to_owned()
 }
 
 fn checks() -> Vec<Check> {

@@ -61,8 +61,7 @@ impl Problem<2> for Swing {
         let period = TAU / predicted.filter(|_| !bounds).unwrap_or(mode.frequency);
         let longest = courant_time_step(cfl, setup.h, law.wave_speed(DENSITY));
         let steps = (PERIODS * period / longest).ceil();
-        let dt = PERIODS * period / steps;
-        Ok(Self { setup, law, mode, stiffness, predicted, dt, steps: steps as u64 })
+        Ok(Self { setup, law, mode, stiffness, predicted, dt: PERIODS * period / steps, steps: steps as u64 })
     }
 
     fn discretisation(&self) -> Discretisation {

@@ -88,8 +88,7 @@ impl Problem<2> for Translation {
 
     fn discretisation(&self) -> Discretisation {
         let particles = self.setup.particles * self.setup.ppc_per_direction;
-        let ppc = (particles as f64 / PERIOD as f64).round() as usize;
-        self.setup.discretisation(2, ppc, self.dt)
+        self.setup.discretisation(2, (particles as f64 / PERIOD as f64).round() as usize, self.dt)
     }
 
     fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
@@ -103,17 +102,14 @@ impl Problem<2> for Translation {
         };
         let places = (0..counts[0] * counts[1]).map(place);
         let volume = size[0] * size[1] / (stretch * stretch);
-        let half = size.map(|s| 0.5 * s);
-        let mut particles = Particles::new(self.setup.start_at(places), volume, DENSITY, half)?
+        let mut particles = Particles::new(self.setup.start_at(places), volume, DENSITY, size.map(|s| 0.5 * s))?
             .deformed(|x| (*x, Matrix2::identity() * stretch));
         particles.velocity.fill([self.speed, 0.0]);
-        let scene = Scene::new(grid, Bodies::new(self.law, particles)?);
-        self.setup.explicit(scene, self.dt, 0.0)
+        self.setup.explicit(Scene::new(grid, Bodies::new(self.law, particles)?), self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
-        let rows = (ROWS * self.setup.cells).ceil() as u64;
-        seen.sample(phase, [self.steps, rows], |run| {
+        seen.sample(phase, [self.steps, (ROWS * self.setup.cells).ceil() as u64], |run| {
             let [mean, noise] = self.stresses(run);
             let totals = run.totals();
             let off = |v: &[f64; 2]| (v[0] / self.speed - 1.0).hypot(v[1] / self.speed);

@@ -149,8 +149,7 @@ fn checks() -> Vec<Check> {
 
 /// The order of a metric of the square with a pressure space is at least the formal one less the slack, by order and source.
 fn at_least(records: &[Record], metric: Metric, space: SpaceName, (formal, why): (f64, &str)) -> Vec<Finding> {
-    let own = |b: &Setup<Undrained>| b.domain == Domain::Square && b.space() == Some(space);
-    let orders = orders(records, metric, own).into_iter();
+    let orders = orders(records, metric, |b| b.domain == Domain::Square && b.space() == Some(space)).into_iter();
     orders.map(|(name, order)| Finding::above(name, order, formal - SLACK, why)).collect()
 }
 
@@ -159,16 +158,14 @@ fn orders(records: &[Record], metric: Metric, own: impl Fn(&Setup<Undrained>) ->
     let ladders = ladders_by(records.iter().filter(|r| Setup::holds(r, &own)), |r| (r.scheme(), &r.set));
     let of = |((scheme, set), runs): ((Scheme, &Vec<String>), Vec<&Record>)| {
         let order = observed_order(finest(&runs)?, |r| r.discretisation.h, metric);
-        let name = format!("order of {} of {scheme} {}", metric.name, set.join(" "));
-        Some((name.trim_end().to_owned(), order))
+        Some((format!("order of {} of {scheme} {}", metric.name, set.join(" ")).trim_end().to_owned(), order))
     };
     ladders.into_iter().filter_map(of).collect()
 }
 
 fn tables() -> Vec<ResultTable> {
     let by_level = |title: &str, metric, format| {
-        let titles = LEVELS.map(|(level, n)| (level, format!("{title}, n = {n}")));
-        Column::levels(titles, metric, format)
+        Column::levels(LEVELS.map(|(level, n)| (level, format!("{title}, n = {n}"))), metric, format)
     };
     let numbers = |name: &str, shows: fn(&Record) -> bool| {
         ResultTable::of(name, shows)

@@ -102,8 +102,7 @@ impl Analysis for Body {
         let more = usize::from(setup.layout == Layout::Across);
         let count = n * setup.points_per_direction + more;
         let in_ellipse = |x: &[f64; 2]| ((x[0] - MIDDLE) / HALF_AXES[0]).powi(2) + (x[1] / HALF_AXES[1]).powi(2) < 1.0;
-        let inside = |x: &[f64; 2]| fitted || in_ellipse(x);
-        let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, inside);
+        let mut cloud = Cloud::new([0.0; 2], [count; 2], 1.0 / count as f64, |x| fitted || in_ellipse(x));
         cloud.places = setup.start_at(cloud.places);
         let held = (0..=n * POINTS).map(|k| k as f64 / (n * POINTS) as f64).flat_map(|s| match fitted {
             true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
@@ -155,8 +154,7 @@ impl Analysis for Body {
             (PRESSURES, found.unknowns[1]),
         ];
         if self.fitted {
-            let names = [DISPLACEMENT_ERROR, PRESSURE_ERROR, CHECKERBOARD_RATIO];
-            all.extend(names.into_iter().zip(found.errors));
+            all.extend([DISPLACEMENT_ERROR, PRESSURE_ERROR, CHECKERBOARD_RATIO].into_iter().zip(found.errors));
         }
         all
     }
@@ -243,8 +241,7 @@ impl Body {
         let of_pressure: Vec<(f64, f64)> = values.iter().zip(&exact).map(|(v, e)| (v - mean - e[2], e[2])).collect();
         let relative = |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
         let scale = rms(exact.iter().map(|e| e[2]));
-        let checkerboard = self.checkerboard(p, pressure) / scale;
-        [relative(&both), relative(&of_pressure), checkerboard]
+        [relative(&both), relative(&of_pressure), self.checkerboard(p, pressure) / scale]
     }
 
     /// Rms over the cells of the pressure of (p₀₀ − p₁₀ − p₀₁ + p₁₁)/4: a checkerboard's amplitude.

@@ -83,8 +83,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
             return Claim::Open("crossing of cells adds to the diffusion of Eq. (26)");
         }
         FbarRecursive => {
-            let why = "Eq. (26) diffuses J with D = ½ s² h²/Δt ∝ h: first order";
-            return Claim::Observed([0.6, 1.15], why);
+            return Claim::Observed([0.6, 1.15], "Eq. (26) diffuses J with D = ½ s² h²/Δt ∝ h: first order");
         }
         _ => {}
     }

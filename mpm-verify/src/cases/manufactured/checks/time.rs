@@ -30,8 +30,7 @@ fn of_truth(about: String, last: &Record, order: f64) -> Option<Finding> {
             Some(Finding::above(about, order, EXPLICIT - SLACK, why))
         }
         Some(RuleName::Midpoint) if lumped == 0.0 => {
-            let why = "the midpoint rule is symmetric in time";
-            Some(Finding::within(about, order, SYMMETRIC, OFF, why))
+            Some(Finding::within(about, order, SYMMETRIC, OFF, "the midpoint rule is symmetric in time"))
         }
         Some(RuleName::Midpoint) if lumped != 1.0 => Some(Finding::not_applicable(
             about,
@@ -64,8 +63,7 @@ fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>
         let converges = r.remedy() != FbarRecursive;
         if converges && r.changes_none_but(&[CFL.name, LUMPED.name]) {
             let others = r.set.iter().filter(|set| !set.starts_with("cfl="));
-            let key = (r.level.as_str(), r.scheme(), others.collect());
-            families.entry(key).or_default().push(r);
+            families.entry((r.level.as_str(), r.scheme(), others.collect())).or_default().push(r);
         }
     }
     let judged = families.into_iter().filter_map(|((level, scheme, others), mut family)| {
@@ -75,8 +73,7 @@ fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>
         let order = richardson(points).map_or(f64::NAN, |r| r.order);
         let set: String = others.iter().map(|set| format!(" {set}")).collect();
         let metric = DISPLACEMENT_RATIO.name;
-        let about = format!("order in Δt of {metric} of {scheme} {level}{set}");
-        found(about, c, order)
+        found(format!("order in Δt of {metric} of {scheme} {level}{set}"), c, order)
     });
     judged.collect()
 }
