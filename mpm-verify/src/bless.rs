@@ -49,8 +49,7 @@ impl<'a> Candidates<'a> {
                 let _ = writeln!(t, "{} {}  {}", record.case, record.folder(), drift_line(v));
             }
         }
-        let unjudged = |r: &&&Record| outcome_of_run(r) == Outcome::NotJudged;
-        let untold = self.drifted.iter().filter(unjudged).count();
+        let untold = self.drifted.iter().filter(|r| outcome_of_run(r) == Outcome::NotJudged).count();
         let _ = writeln!(
             t,
             "{} of {} runs have drifted or have no golden; bookkeeping alone judges {untold} of these",
@@ -82,8 +81,7 @@ impl<'a> Candidates<'a> {
     /// Names of the perturbed twins that blessing runs.
     #[must_use]
     pub fn twin_names(&self) -> Vec<String> {
-        let name = |r: &&Record| format!("{}/{}/twin", r.case, r.folder());
-        self.drifted.iter().map(name).collect()
+        self.drifted.iter().map(|r| format!("{}/{}/twin", r.case, r.folder())).collect()
     }
 
     /// Blesses every candidate, running a perturbed twin of each beside the run itself (one that is there already is

@@ -396,8 +396,7 @@ impl Case {
     pub fn default_scheme(&self, solver: Option<&str>) -> Scheme {
         let explicit = Scheme::flip(BasisName::Gimp, RemedyName::FbarConsistent);
         let mut schemes = self.plan.iter().flat_map(|f| &f.schemes);
-        let own = schemes.find(|s| solver.is_none_or(|name| s.solver() == name));
-        match own {
+        match schemes.find(|s| solver.is_none_or(|name| s.solver() == name)) {
             Some(scheme) if scheme.solver() != explicit.solver() => *scheme,
             _ => explicit,
         }
@@ -407,8 +406,7 @@ impl Case {
     #[must_use]
     pub fn runs(&self, tier: Tier) -> Vec<RunSpec> {
         let mut seen = BTreeSet::new();
-        let families = self.plan.iter().filter(|f| f.tier <= tier);
-        let mut runs: Vec<RunSpec> = families.flat_map(Family::runs).collect();
+        let mut runs: Vec<RunSpec> = self.plan.iter().filter(|f| f.tier <= tier).flat_map(Family::runs).collect();
         runs.retain(|spec| seen.insert(spec.folder()));
         runs
     }
@@ -444,8 +442,7 @@ impl Plan {
     pub(crate) fn runs(mut self, tier: Tier, levels: &str, schemes: &[Scheme], set: &str) -> Self {
         // The plan's test finds a level that the case does not have.
         let unknown = Level { name: "unknown", h: f64::NAN };
-        let level = |name| self.levels.iter().find(|l| l.name == name);
-        let levels = levels.split_whitespace().map(level);
+        let levels = levels.split_whitespace().map(|name| self.levels.iter().find(|l| l.name == name));
         self.families.push(Family {
             tier,
             levels: levels.map(|l| l.copied().unwrap_or(unknown)).collect(),
@@ -469,8 +466,7 @@ impl Plan {
 
 impl Family {
     fn runs(&self) -> impl Iterator<Item = RunSpec> {
-        let of_level = |&level| self.schemes.iter().map(move |&scheme| (level, scheme));
-        let pairs = self.levels.iter().flat_map(of_level);
+        let pairs = self.levels.iter().flat_map(|&level| self.schemes.iter().map(move |&scheme| (level, scheme)));
         pairs.map(|(level, scheme)| RunSpec { scheme, level, set: self.set.clone(), perturbed: false })
     }
 }

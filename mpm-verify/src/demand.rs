@@ -152,8 +152,7 @@ impl<P: ParameterSet> Demand<P> {
             Passage::Judged => {}
         }
         let why = self.why.as_ref().map_or_else(|| why.to_owned(), |why| why(run));
-        let value = (self.quantity.value)(run);
-        let found = self.bound.finding(name.to_owned(), value, run, why);
+        let found = self.bound.finding(name.to_owned(), (self.quantity.value)(run), run, why);
         Some(self.scale.iter().fold(found, |found, scale| found.of_scale(scale(run))))
     }
 }
@@ -281,8 +280,7 @@ impl<P: ParameterSet> CheckOf<P> {
             Over::TimeStep => format!("order in Δt of {}", metric.name),
         };
         let name: Of<P, String> = Box::new(move |r| format!("{of} of {}", r.scheme));
-        let subject = Subject::Order { name, metric, over, formal };
-        Self { subject, ..self }
+        Self { subject: Subject::Order { name, metric, over, formal }, ..self }
     }
 
     /// The same with another name of the quantity.
@@ -300,8 +298,7 @@ impl<P: ParameterSet> CheckOf<P> {
 
     /// Findings of a function on one run, with their sources.
     pub(crate) fn own(self, found: impl Fn(&Run<P>) -> Vec<Finding> + Held) -> Check {
-        let subject = Subject::Own(Box::new(found));
-        Self { subject, ..self }.into()
+        Self { subject: Subject::Own(Box::new(found)), ..self }.into()
     }
 
     /// Findings of a function on all runs of the case, with their sources; it selects its runs itself.
@@ -361,8 +358,7 @@ impl<P: ParameterSet> CheckOf<P> {
 
     /// The runs that pass `when`.
     fn runs<'a>(&self, records: &'a [Record]) -> Vec<Run<'a, P>> {
-        let runs = Run::all(records);
-        runs.filter(|r| matches!(Gate::passage(&self.gates, r), Passage::Judged)).collect()
+        Run::all(records).filter(|r| matches!(Gate::passage(&self.gates, r), Passage::Judged)).collect()
     }
 
     fn orders(
@@ -421,8 +417,7 @@ impl<P: ParameterSet> PairsOf<P> {
         bound: Bound<P>,
     ) -> CheckOf<P> {
         let (partner, name, value) = (self.partner, Box::new(name), Box::new(value));
-        let subject = Subject::Pair { partner, name, value, bound };
-        CheckOf { subject, ..self.check }
+        CheckOf { subject: Subject::Pair { partner, name, value, bound }, ..self.check }
     }
 
     /// value ≤ bound, by the name, the value of run and partner, and the bound of the run.

@@ -154,8 +154,7 @@ impl<'a> Panel<'a> {
         self.begin();
         for scheme in schemes {
             let own = || runs.iter().copied().filter(|r| r.scheme() == scheme);
-            let points = self.in_order(own().map(&point).collect());
-            self.push(own().next(), series(scheme, points));
+            self.push(own().next(), series(scheme, self.in_order(own().map(&point).collect())));
         }
         self
     }
@@ -170,8 +169,7 @@ impl<'a> Panel<'a> {
 
     /// Changes the curves of runs that were added last, each with its first run.
     pub(crate) fn by_run(mut self, style: impl Fn(&Record, Series) -> Series) -> Self {
-        let curves = self.chart.series.iter_mut().zip(&self.runs).skip(self.last);
-        for (curve, run) in curves {
+        for (curve, run) in self.chart.series.iter_mut().zip(&self.runs).skip(self.last) {
             if let Some(run) = run {
                 *curve = style(run, curve.clone());
             }
@@ -199,8 +197,7 @@ impl<'a> Panel<'a> {
 
     /// An exact curve, sampled over a range of the abscissa: dotted and black.
     pub(crate) fn exact(self, name: &str, range: RangeInclusive<f64>, value: impl Fn(f64) -> f64) -> Self {
-        let points = sampled(range, value);
-        self.curve(Series { dash: Dash::Dotted, ..Series::line(name, points, BLACK) })
+        self.curve(Series { dash: Dash::Dotted, ..Series::line(name, sampled(range, value), BLACK) })
     }
 
     /// A reference at some abscissae: dashed and grey, with markers.
@@ -227,15 +224,13 @@ impl<'a> Panel<'a> {
 
     /// A triangle that shows the slope of an order, below all curves so far.
     pub(crate) fn order(mut self, slope: f64) -> Self {
-        let curves = self.chart.series.iter().map(|s| &s.points[..]);
-        self.chart.slope_triangle = below_the_curves(slope, curves);
+        self.chart.slope_triangle = below_the_curves(slope, self.chart.series.iter().map(|s| &s.points[..]));
         self
     }
 
     /// The same curves in another range of the ordinate.
     pub(crate) fn zoomed(&self, from: f64, to: f64) -> Self {
-        let chart = self.chart.clone();
-        Self { chart, runs: self.runs.clone(), last: self.last }.y_range(from, to)
+        Self { chart: self.chart.clone(), runs: self.runs.clone(), last: self.last }.y_range(from, to)
     }
 
     /// Whether the axes can show a point.
@@ -255,8 +250,7 @@ impl<'a> Panel<'a> {
     pub(crate) fn chart(self) -> Option<Chart> {
         let curves = self.chart.series.iter().zip(&self.runs);
         let mut points = curves.filter(|(_, run)| run.is_some()).flat_map(|(s, _)| &s.points);
-        let drawn = points.any(|(x, y)| x.is_finite() && y.is_finite());
-        drawn.then_some(self.chart)
+        points.any(|(x, y)| x.is_finite() && y.is_finite()).then_some(self.chart)
     }
 }
 
@@ -371,8 +365,7 @@ pub(crate) fn below_the_curves<'a>(
     let at_left = |pair: &[(f64, f64)]| {
         let ((x0, y0), (x1, y1)) = (pair[0], pair[1]);
         let share = (left / x0).ln() / (x1 / x0).ln();
-        let inside = (0.0..=1.0).contains(&share);
-        inside.then(|| y0 * (y1 / y0).powf(share))
+        (0.0..=1.0).contains(&share).then(|| y0 * (y1 / y0).powf(share))
     };
     let crossing = curves.clone().flat_map(|c| c.windows(2).filter_map(at_left));
     let right = curves.clone().flatten().filter(|p| p.0 >= left).map(|p| p.1);

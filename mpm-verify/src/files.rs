@@ -61,8 +61,7 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
         return Err(Error::file(path, "not a plain file"));
     }
     if about.len() > most {
-        let cause = format!("{} bytes where {most} are allowed", about.len());
-        return Err(Error::file(path, cause));
+        return Err(Error::file(path, format!("{} bytes where {most} are allowed", about.len())));
     }
     fs::read(path).map_err(|e| Error::file(path, e))
 }
@@ -72,8 +71,7 @@ pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
 /// # Errors
 /// Those of [`read`], or it is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String, Error> {
-    let not_text = |_| Error::file(path, "not UTF-8");
-    String::from_utf8(read(path, DOCUMENT)?).map_err(not_text)
+    String::from_utf8(read(path, DOCUMENT)?).map_err(|_| Error::file(path, "not UTF-8"))
 }
 
 /// Reads a picture.
@@ -81,8 +79,7 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
 /// # Errors
 /// Those of [`read`], or it is no picture.
 pub fn read_picture(path: &Path) -> Result<image::RgbImage, Error> {
-    let picture = image::load_from_memory(&read(path, DOCUMENT)?);
-    Ok(picture.map_err(|e| Error::file(path, e))?.to_rgb8())
+    Ok(image::load_from_memory(&read(path, DOCUMENT)?).map_err(|e| Error::file(path, e))?.to_rgb8())
 }
 
 /// Checks that a place below `root` is reached by names alone.
@@ -153,8 +150,7 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Error> {
         return Ok(Vec::new());
     }
     let entries = fs::read_dir(folder).map_err(|e| Error::file(folder, e))?;
-    let path = |entry: std::io::Result<fs::DirEntry>| entry.map(|e| e.path());
-    let paths: Result<Vec<PathBuf>, _> = entries.map(path).collect();
+    let paths: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|e| e.path())).collect();
     let mut paths = paths.map_err(|e| Error::file(folder, e))?;
     paths.sort();
     Ok(paths)
@@ -215,14 +211,12 @@ pub fn read_versioned<T: DeserializeOwned>(path: &Path, schema: u32) -> Result<T
     match found.get("schema").and_then(Value::as_u64) {
         Some(of) if of == u64::from(schema) => {}
         Some(of) => {
-            let cause = format!("schema {of} where {schema} is expected");
-            return Err(Error::file(path, cause));
+            return Err(Error::file(path, format!("schema {of} where {schema} is expected")));
         }
         None => return Err(Error::file(path, "damaged: no schema")),
     }
     if let Some(text) = unfit(&found) {
-        let cause = format!("damaged: control characters in \"{text}\"");
-        return Err(Error::file(path, cause));
+        return Err(Error::file(path, format!("damaged: control characters in \"{text}\"")));
     }
     serde_json::from_slice(&bytes).map_err(damaged)
 }
@@ -276,6 +270,5 @@ pub(crate) fn csv_text(header: &[String], rows: impl IntoIterator<Item = Vec<Str
 /// # Errors
 /// The file can't be written.
 pub fn write_csv(path: &Path, header: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> Result<(), Error> {
-    let bytes = csv_text(header, rows).map_err(|e| Error::file(path, e))?;
-    write_whole(path, &bytes)
+    write_whole(path, &csv_text(header, rows).map_err(|e| Error::file(path, e))?)
 }

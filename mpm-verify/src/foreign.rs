@@ -275,8 +275,7 @@ impl Given {
     /// A column; empty if it is not there.
     pub(crate) fn column(&self, asked: &Asked) -> &[f64] {
         let table = self.tables.iter().find(|(part, ..)| *part == asked.part);
-        let column = table.and_then(|(.., table)| table.get(&asked.header()));
-        column.unwrap_or_default()
+        table.and_then(|(.., table)| table.get(&asked.header())).unwrap_or_default()
     }
 
     /// The value of a column in a row; zero if it is not there: no group takes what is measured of that.
@@ -315,8 +314,7 @@ impl Given {
 
     /// Two columns as points.
     pub(crate) fn points(&self, [x, y]: [&Asked; 2]) -> Vec<[f64; 2]> {
-        let ys = self.column(y).iter();
-        self.column(x).iter().zip(ys).map(|(x, y)| [*x, *y]).collect()
+        self.column(x).iter().zip(self.column(y).iter()).map(|(x, y)| [*x, *y]).collect()
     }
 
     /// The places in the table of the particles that start at `seeded` (m), where parts of the size `spacing` (m) along
@@ -340,8 +338,7 @@ impl Given {
             match places.get(&part(x)) {
                 Some(place) => order.push(*place),
                 None => {
-                    let said = format!("no particle starts at ({}, {}) m: see `export`", x[0], x[1]);
-                    return refused(said);
+                    return refused(format!("no particle starts at ({}, {}) m: see `export`", x[0], x[1]));
                 }
             }
         }
@@ -358,8 +355,7 @@ impl Given {
         for (part, path, table) in &self.tables {
             if table.rows() == 0 || table.rows() > MOST_ROWS {
                 let rows = table.rows();
-                let said = format!("{rows} rows where 1 to {MOST_ROWS} are allowed");
-                return Err(Error::file(path, said));
+                return Err(Error::file(path, format!("{rows} rows where 1 to {MOST_ROWS} are allowed")));
             }
             for (head, _) in table.iter() {
                 match asked.iter().find(|a| a.part == *part && a.is_meant_by(head)) {

@@ -118,8 +118,7 @@ pub fn begin<const D: usize, P: Problem<D> + 'static>(
 where
     P::Parameters: ParameterSet,
 {
-    let problem = P::new(Setup::of_spec(spec, parameters)?)?;
-    Ok(Box::new(Driver::new(problem)?))
+    Ok(Box::new(Driver::new(P::new(Setup::of_spec(spec, parameters)?)?)?))
 }
 
 /// A run of a [`Problem`].
@@ -190,13 +189,11 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
     }
 
     fn particles(&mut self) -> Vec<Column> {
-        let columns = Columns::positions(self.phase.run.as_mut());
-        self.problem.particles(&self.seen, columns).done()
+        self.problem.particles(&self.seen, Columns::positions(self.phase.run.as_mut())).done()
     }
 
     fn metrics(&mut self) -> BTreeMap<String, Measured> {
-        let values = self.problem.metrics(&self.seen, &mut self.phase);
-        values.into_iter().map(measured).collect()
+        self.problem.metrics(&self.seen, &mut self.phase).into_iter().map(measured).collect()
     }
 
     fn work(&self) -> WorkDone {
@@ -214,8 +211,7 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
 
 /// A metric as a record has it: a value that is not finite is missing.
 pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
-    let measured = Measured { value: value.is_finite().then_some(value), unit: metric.unit.to_owned() };
-    (metric.name.to_owned(), measured)
+    (metric.name.to_owned(), Measured { value: value.is_finite().then_some(value), unit: metric.unit.to_owned() })
 }
 
 /// All rows of a run so far, that of the start first: the observations of a problem that is sampled at equal intervals.
@@ -249,8 +245,7 @@ impl Rows {
     pub(crate) fn column(&self, name: &str) -> Vec<f64> {
         let own = |full: &String| full.split(" (").next() == Some(name);
         let place = self.names.iter().position(own).unwrap_or(usize::MAX);
-        let value = |row: &Vec<f64>| row.get(place).copied().unwrap_or(f64::NAN);
-        self.values.iter().map(value).collect()
+        self.values.iter().map(|row| row.get(place).copied().unwrap_or(f64::NAN)).collect()
     }
 
     /// Two columns as points.
@@ -268,8 +263,7 @@ pub struct Columns<'a, const D: usize> {
 impl<'a, const D: usize> Columns<'a, D> {
     /// Positions x, y, z (m).
     pub(crate) fn positions(run: &'a mut dyn Simulation<D>) -> Self {
-        let columns = Vec::new();
-        Self { run, columns }.axes(["x", "y", "z"], "m", |p, k| p.position[k])
+        Self { run, columns: Vec::new() }.axes(["x", "y", "z"], "m", |p, k| p.position[k])
     }
 
     /// The simulation.
@@ -279,8 +273,7 @@ impl<'a, const D: usize> Columns<'a, D> {
 
     /// Positions in the reference configuration (m).
     pub(crate) fn references(self) -> Self {
-        let names = ["reference_x", "reference_y", "reference_z"];
-        self.axes(names, "m", |p, k| p.reference[k])
+        self.axes(["reference_x", "reference_y", "reference_z"], "m", |p, k| p.reference[k])
     }
 
     /// Velocities (m/s).
@@ -309,8 +302,7 @@ impl<'a, const D: usize> Columns<'a, D> {
         of: impl Fn(&Particles<D>, usize) -> f64,
     ) -> Self {
         let p = self.run.particles();
-        let values = p.seeded(|k| of(p, k));
-        self.columns.push(Column { name, unit, values });
+        self.columns.push(Column { name, unit, values: p.seeded(|k| of(p, k)) });
         self
     }
 

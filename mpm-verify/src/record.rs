@@ -100,8 +100,7 @@ macro_rules! counts {
             pub fn counts(&self) -> Vec<(&'static str, u64)> {
                 let of_all = [$((stringify!($own), self.$own),)* $((stringify!($sum), self.$sum),)*];
                 let of_newton = [$((stringify!($newton), self.$newton)),*];
-                let counted = of_newton.into_iter().filter(|_| self.newton_iterations > 0);
-                of_all.into_iter().chain(counted).collect()
+                of_all.into_iter().chain(of_newton.into_iter().filter(|_| self.newton_iterations > 0)).collect()
             }
         }
 
@@ -290,8 +289,7 @@ impl Record {
     /// The value of a metric named in data; NaN if it is missing.
     #[must_use]
     pub fn value(&self, name: &str) -> f64 {
-        let measured = self.metrics.get(name).and_then(|m| m.value);
-        measured.unwrap_or(f64::NAN)
+        self.metrics.get(name).and_then(|m| m.value).unwrap_or(f64::NAN)
     }
 
     /// Whether the run was of the case's own parameters.

@@ -344,8 +344,7 @@ impl ResultTable {
             let case = |r: &Record| cases.iter().position(|c| **c == r.case);
             let place = |r: &Record| (case(r), r.basis(), r.remedy(), r.transfer());
             let h = |r: &Record| r.discretisation.h;
-            let key = place(a).cmp(&place(b)).then(h(b).total_cmp(&h(a)));
-            key.then_with(|| a.set.cmp(&b.set))
+            place(a).cmp(&place(b)).then(h(b).total_cmp(&h(a))).then_with(|| a.set.cmp(&b.set))
         });
         let label = |r: &Record| -> Vec<String> { self.labels.iter().map(|(_, of)| of(r)).collect() };
         let titles = self.labels.iter().map(|(title, _)| (*title).to_owned());
@@ -390,8 +389,7 @@ impl ResultTable {
 
 /// When a run broke down, in words.
 fn breakdown(run: &Record) -> String {
-    let time = run.error.as_ref().map_or(f64::NAN, |e| e.time);
-    format!("breaks down at {} s", fixed(2).text(time))
+    format!("breaks down at {} s", fixed(2).text(run.error.as_ref().map_or(f64::NAN, |e| e.time)))
 }
 
 /// The order of an error over the runs of a row that have it.

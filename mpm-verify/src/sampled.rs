@@ -29,8 +29,7 @@ impl<'a> Sampled<'a> {
 
     /// The value at `x`; nothing outside of the rows, or of fewer than three.
     pub(crate) fn at(&self, x: f64) -> Option<Between> {
-        let near = |known: &f64| (known - x).abs() <= ROUNDING * x.abs();
-        if let Some(row) = self.x.iter().position(near) {
+        if let Some(row) = self.x.iter().position(|known| (known - x).abs() <= ROUNDING * x.abs()) {
             return Some(Between { value: *self.y.get(row)?, error: 0.0 });
         }
         let above = self.x.partition_point(|known| *known < x);

@@ -57,8 +57,7 @@ pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
 pub(crate) fn oscillation(places: &[[f64; 2]], field: &[f64], size: f64) -> f64 {
     let mut squares = std::collections::BTreeMap::<[i64; 2], Vec<Valued>>::new();
     for (x, value) in places.iter().zip(field) {
-        let square = x.map(|x| (x / size).floor() as i64);
-        squares.entry(square).or_default().push((*x, *value));
+        squares.entry(x.map(|x| (x / size).floor() as i64)).or_default().push((*x, *value));
     }
     rms(squares.into_values().flat_map(off_plane))
 }

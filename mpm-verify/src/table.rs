@@ -147,8 +147,7 @@ impl Table {
 
     /// The columns with their names and units.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &[f64])> {
-        let values = self.columns.iter().map(Vec::as_slice);
-        self.header.iter().map(String::as_str).zip(values)
+        self.header.iter().map(String::as_str).zip(self.columns.iter().map(Vec::as_slice))
     }
 
     /// The column named `header`, unit included.
@@ -172,8 +171,7 @@ impl Table {
     /// Two columns as points.
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
-        let ys = self.column(y).iter().copied();
-        self.column(x).iter().copied().zip(ys).collect()
+        self.column(x).iter().copied().zip(self.column(y).iter().copied()).collect()
     }
 
     /// Two columns as points, each of which `map` changes.

@@ -64,8 +64,7 @@ pub fn measure(options: &Options, out: &Path, progress: &dyn Fn(f64)) -> Result<
 fn begin(case: &str, level: &str, scheme: Scheme) -> Result<Box<dyn Run>, mpm_bench::Error> {
     let case = cases::find(case)?;
     let spec = RunSpec { scheme, level: find_level(case, level)?, set: Vec::new(), perturbed: false };
-    let parameters = Parameters::new(&case.parameters, &spec.set)?;
-    Ok(Box::new(CaseRun((case.begin)(&spec, &parameters)?)))
+    Ok(Box::new(CaseRun((case.begin)(&spec, &Parameters::new(&case.parameters, &spec.set)?)?)))
 }
 
 struct CaseRun(Box<dyn Job>);

@@ -73,8 +73,7 @@ fn aims_table(bench: &Measurements) -> String {
 
 /// Updates per second (10⁶) by wall time.
 fn rate(measured: &Measured) -> Option<Spread> {
-    let samples = measured.samples.iter();
-    Spread::of(samples.map(|s| 1e-6 * s.updates as f64 / s.wall_s))
+    Spread::of(measured.samples.iter().map(|s| 1e-6 * s.updates as f64 / s.wall_s))
 }
 
 fn workloads(bench: &Measurements) -> String {
@@ -83,8 +82,7 @@ fn workloads(bench: &Measurements) -> String {
     let operations = |m: &Measured| model::operations(kind(m).0, kind(m).1);
     let bandwidth = |m: &Measured| bytes(m) / m.wall_ns().map_or(f64::NAN, |s| s.median);
     let triad = |m: &Measured| {
-        let time = bench.find("memory", "triad", m.threads).and_then(Measured::wall_ns);
-        time.map_or(f64::NAN, |s| 1.0 / s.median)
+        bench.find("memory", "triad", m.threads).and_then(Measured::wall_ns).map_or(f64::NAN, |s| 1.0 / s.median)
     };
     table(
         "Workloads",
@@ -143,10 +141,7 @@ fn problems(bench: &Measurements) -> String {
 fn iterations(bench: &Measurements) -> String {
     let of = |steps: &newton::Steps, part: &str| bench.find("newton", &steps.name(part), 1);
     let milliseconds = |steps: &newton::Steps, part: &str| {
-        let per = |m: &Measured| {
-            let samples = m.samples.iter();
-            Spread::of(samples.map(|s| 1e3 * s.cpu_s / s.updates as f64))
-        };
+        let per = |m: &Measured| Spread::of(m.samples.iter().map(|s| 1e3 * s.cpu_s / s.updates as f64));
         spread(of(steps, part).and_then(per), 0)
     };
     let [forces, assembly, factors, solution] = newton::PARTS.map(|(part, _)| part);

@@ -37,8 +37,7 @@ impl Bench {
         };
         let _held = hold(&self.out)?;
         let teller = Teller::new("bench", true);
-        let text = bench::measure(&options, &self.out, &|share| teller.hear(|_| format!("{:.0} %", 100.0 * share)))?;
-        say(&text)?;
+        say(&bench::measure(&options, &self.out, &|share| teller.hear(|_| format!("{:.0} %", 100.0 * share)))?)?;
         Ok(ExitCode::Good)
     }
 }

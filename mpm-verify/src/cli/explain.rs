@@ -21,8 +21,7 @@ impl List {
             say_json(&describe::list_json(cases::all(), self.tier))?;
         } else {
             let goldens = golden::place(None);
-            let pairs = |case: &str| golden::pairs(&goldens, case).ok();
-            say(describe::list_text(cases::all(), self.tier, pairs))?;
+            say(describe::list_text(cases::all(), self.tier, |case| golden::pairs(&goldens, case).ok()))?;
         }
         Ok(ExitCode::Good)
     }
@@ -65,8 +64,7 @@ pub(crate) struct Exact {
 
 impl Exact {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let state = exact::State::ask(&self.name, &self.at, &self.time, &self.set)?;
-        say(state.json()?)?;
+        say(exact::State::ask(&self.name, &self.at, &self.time, &self.set)?.json()?)?;
         Ok(ExitCode::Good)
     }
 }

@@ -30,8 +30,7 @@ impl Factor {
         while let Some(factor) = search.next() {
             let scene = SceneFile::read(&self.file, factor, self.making.memory())?;
             let folder = self.making.folder().map(|out| out.join(format!("{factor:.6}")));
-            let record = self.making.make(&scene.case, &scene.spec, folder.as_deref())?;
-            say(search.add(factor, &record) + "\n")?;
+            say(search.add(factor, &self.making.make(&scene.case, &scene.spec, folder.as_deref())?) + "\n")?;
         }
         if let Some(out) = self.making.folder() {
             let _held = hold(out)?;

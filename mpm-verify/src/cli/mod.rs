@@ -166,8 +166,7 @@ fn tier() -> impl TypedValueParser<Value = Tier> {
 }
 
 fn case() -> impl TypedValueParser<Value = &'static Case> {
-    let value = |case: &Case| PossibleValue::new(case.name).help(case.title);
-    let names = cases::all().iter().map(value);
+    let names = cases::all().iter().map(|case| PossibleValue::new(case.name).help(case.title));
     PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
 }
 

@@ -73,8 +73,7 @@ impl Export {
         let spec = RunSpec { scheme: (foreign.judged_as)(BasisName::Bspline2), level, set: self.set, perturbed: false };
         let _held = hold(&self.out)?;
         let files = export(case, foreign, &spec, &self.out)?;
-        let path = |name: &String| format!("{}\n", self.out.join(name).display());
-        say(files.iter().map(path).collect::<String>())?;
+        say(files.iter().map(|name| format!("{}\n", self.out.join(name).display())).collect::<String>())?;
         Ok(ExitCode::Good)
     }
 }

@@ -55,8 +55,7 @@ impl Output {
         }
         pass(Step::Create, path)?;
         let file = File::create(path)?;
-        let path = path.to_path_buf();
-        Ok(Self { file, path })
+        Ok(Self { file, path: path.to_path_buf() })
     }
 
     /// Resumes an open file after its first bytes, cutting off the others.
@@ -64,8 +63,7 @@ impl Output {
         pass(Step::Write, path)?;
         file.set_len(bytes)?;
         file.seek(io::SeekFrom::End(0))?;
-        let path = path.to_path_buf();
-        Ok(Self { file, path })
+        Ok(Self { file, path: path.to_path_buf() })
     }
 
     /// Syncs the file, so that its content survives a failure of the machine.

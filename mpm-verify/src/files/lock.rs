@@ -53,8 +53,7 @@ pub fn hold(folder: &Path) -> Result<Held, Error> {
         let arguments: Vec<String> = std::env::args().skip(1).collect();
         let now = jiff::Timestamp::now();
         let holder = format!("process {}, `{}`, since {now}", std::process::id(), arguments.join(" "));
-        let said = lock.set_len(0).and_then(|()| lock.write_all(holder.as_bytes()));
-        said.map_err(|e| Error::file(&path, e))?;
+        lock.set_len(0).and_then(|()| lock.write_all(holder.as_bytes())).map_err(|e| Error::file(&path, e))?;
         return Ok(Held { file: path, folder: folder.to_path_buf(), made, _lock: lock });
     }
 }

@@ -49,13 +49,11 @@ impl Goldens {
         if let Some(((_, record, folder), view)) = new.iter().find(has_field).zip(case.field) {
             field::bless(&field::files(&self.root, case.name), &view, record, folder)?;
         }
-        let runs = new.iter().map(|(run, ..)| run.clone()).collect();
-        golden.bless(runs, &planned, first, reason);
+        golden.bless(new.iter().map(|(run, ..)| run.clone()).collect(), &planned, first, reason);
         let shown = golden.shown();
         let is_shown = |(new, ..): &&(Run, _, _)| shown.iter().any(|run| run.name == new.name);
         if let Some((.., folder)) = new.iter().find(is_shown) {
-            let series = Table::read(&folder.join(series::FILE))?;
-            let picture = curves(&shown, series.abscissa())?;
+            let picture = curves(&shown, Table::read(&folder.join(series::FILE))?.abscissa())?;
             write_small(&picture, &picture_file(&self.root, case.name))?;
         }
         golden.write(&file(&self.root, case.name))
@@ -82,8 +80,7 @@ impl Goldens {
     /// The case is not known, the run's series can't be read, or a picture can't be drawn.
     pub fn compare(&self, record: &Record, folder: &Path) -> Result<Vec<Verdict>, Error> {
         if record.broke_down() {
-            let why = "the run broke down: nothing to compare";
-            return Ok(vec![mismatch("run", why)]);
+            return Ok(vec![mismatch("run", "the run broke down: nothing to compare")]);
         }
         let case = cases::find(&record.case)?;
         if let Some(why) = why_none(case, record) {
@@ -99,8 +96,7 @@ impl Goldens {
         if let Some(view) = case.field
             && runs(case).first() == Some(&record.folder())
         {
-            let files = field::files(&self.root, case.name);
-            verdicts.extend(field::judge(&files, &view, record, folder, blessing)?);
+            verdicts.extend(field::judge(&field::files(&self.root, case.name), &view, record, folder, blessing)?);
         }
         Ok(verdicts)
     }
@@ -115,8 +111,7 @@ impl Goldens {
         }
         *first = now.snapped(first);
         let path = picture_file(&self.root, &now.record.case);
-        let drawn = curves(&shown, now.series.abscissa());
-        Some(judged("different pixels of the picture", &path, drawn, blessing))
+        Some(judged("different pixels of the picture", &path, curves(&shown, now.series.abscissa()), blessing))
     }
 
     /// The watched columns of a run as they were blessed, and as they are.
@@ -126,8 +121,7 @@ impl Goldens {
     pub fn pictures(&self, record: &Record, folder: &Path) -> Result<[RgbImage; 2], Error> {
         let (golden, _) = self.find(record).map_err(|why| Error::file(&self.root, why))?;
         let now = Now::read(record, folder)?;
-        let drawn = [golden.clone(), now.snapped(golden)];
-        let [old, new] = drawn.map(|run| curves(&[run], now.series.abscissa()));
+        let [old, new] = [golden.clone(), now.snapped(golden)].map(|run| curves(&[run], now.series.abscissa()));
         Ok([old?, new?])
     }
 }
@@ -140,8 +134,7 @@ struct Now<'a> {
 
 impl<'a> Now<'a> {
     fn read(record: &'a Record, folder: &Path) -> Result<Self, Error> {
-        let series = Table::read(&folder.join(series::FILE))?;
-        Ok(Self { record, series })
+        Ok(Self { record, series: Table::read(&folder.join(series::FILE))? })
     }
 
     /// The number that stands in the place of a golden one.
@@ -185,8 +178,7 @@ impl<'a> Now<'a> {
             // What is not a number exceeds everything.
             if worst.0.total_cmp(&difference).is_lt() {
                 let source = format!("{place}blessed {blessing}");
-                let close = Finding::within(&*label, value, point.value, tolerance, source);
-                worst = (difference, of_drift(close));
+                worst = (difference, of_drift(Finding::within(&*label, value, point.value, tolerance, source)));
             }
         }
         worst.1

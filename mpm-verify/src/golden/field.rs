@@ -56,8 +56,7 @@ pub(super) fn bless(
     rows.retain(shown);
     let column = |k: usize| {
         let digits = if k == 0 { 10 } else { 4 };
-        let values = rows.iter().map(|row| rounded(row[k], digits));
-        (COLUMNS[k].to_owned(), values.collect())
+        (COLUMNS[k].to_owned(), rows.iter().map(|row| rounded(row[k], digits)).collect())
     };
     Table::of_columns([0, 1, 2, 3].map(column).into()).write(file)?;
     write_small(&draw(view, record, &read(file)?)?, picture)
@@ -90,8 +89,7 @@ pub(super) fn judge(
         }
     }
     let differ = of_drift(Finding::within(metric, f64::from(moved), 0.0, 0.0, blessing));
-    let drawn = draw(view, record, &rows);
-    Ok(vec![differ, judged("different pixels of the field", picture, drawn, blessing)])
+    Ok(vec![differ, judged("different pixels of the field", picture, draw(view, record, &rows), blessing)])
 }
 
 fn draw(view: &FieldView, record: &Record, rows: &[[f64; 4]]) -> Result<RgbImage, Error> {

@@ -57,8 +57,7 @@ impl Column {
     /// A quantity of one number.
     #[must_use]
     pub fn single(quantity: String, value: f64, response: f64) -> Self {
-        let point = Point { time: None, value, response };
-        Self { quantity, points: vec![point] }
+        Self { quantity, points: vec![Point { time: None, value, response }] }
     }
 
     /// The largest of its numbers.
@@ -136,8 +135,7 @@ impl Golden {
     /// number; or a response is larger than that of a golden.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let golden: Self = read_versioned(path, SCHEMA)?;
-        let sound = golden.check();
-        sound.map_err(|cause| Error::file(path, cause))?;
+        golden.check().map_err(|cause| Error::file(path, cause))?;
         match golden.text() {
             Ok(own) if own == read_text(path)? => Ok(golden),
             _ => Err(Error::file(path, OTHER_LAYOUT)),
@@ -197,8 +195,7 @@ impl Golden {
         self.runs.retain(|old| new.iter().all(|r| r.name != old.name));
         self.runs.extend(new);
         self.runs.retain(|run| planned.contains(&run.name));
-        let place = |run: &Run| planned.iter().position(|name| *name == run.name);
-        self.runs.sort_by_key(place);
+        self.runs.sort_by_key(|run| planned.iter().position(|name| *name == run.name));
         let now = jiff::Timestamp::now().to_string();
         let words: Vec<&str> = reason.split_whitespace().collect();
         self.blessings.push(format!(
@@ -229,8 +226,7 @@ impl Golden {
     /// # Errors
     /// It can't be written.
     pub fn write(&self, path: &Path) -> Result<(), Error> {
-        let text = self.text().map_err(|e| Error::file(path, e))?;
-        write_whole(path, text.as_bytes())
+        write_whole(path, self.text().map_err(|e| Error::file(path, e))?.as_bytes())
     }
 }
 

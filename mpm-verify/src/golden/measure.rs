@@ -18,8 +18,7 @@ impl Run {
         for (header, values) in of_run.iter() {
             if cases::find(&record.case)?.watched.contains(&bare(header)) {
                 let others = of_twin.get(header).unwrap_or_default();
-                let times = [&of_run, &of_twin].map(first);
-                columns.extend(rows(header, times, [values, others]));
+                columns.extend(rows(header, [&of_run, &of_twin].map(first), [values, others]));
             }
         }
         columns.extend(counts(record, twin));
@@ -36,18 +35,15 @@ fn metrics(record: &Record, twin: &Record) -> Vec<Column> {
     let both = record.metrics.iter().filter_map(|(name, metric)| {
         let value = metric.value?;
         let response = (value - twin.metrics.get(name)?.value?).abs();
-        let quantity = format!("metric/{name} ({})", metric.unit);
-        Some(Column::single(quantity, rounded(value, 10), rounded(response, 2)))
+        Some(Column::single(format!("metric/{name} ({})", metric.unit), rounded(value, 10), rounded(response, 2)))
     });
     both.filter(|column| !column.is_blunt()).collect()
 }
 
 /// Counts of work: a run that ends by a criterion may take a row more than its twin. Those that differ by more are left out.
 fn counts(record: &Record, twin: &Record) -> Vec<Column> {
-    let both = record.work.counts().into_iter().zip(twin.work.counts());
-    let counts = both.map(|((name, count), (_, of_twin))| {
-        let response = count.abs_diff(of_twin) as f64;
-        Column::single(format!("{WORK}{name}"), count as f64, response)
+    let counts = record.work.counts().into_iter().zip(twin.work.counts()).map(|((name, count), (_, of_twin))| {
+        Column::single(format!("{WORK}{name}"), count as f64, count.abs_diff(of_twin) as f64)
     });
     counts.filter(|c| c.is_loose().is_none()).collect()
 }
@@ -88,8 +84,7 @@ fn rows(header: &str, times: [&[f64]; 2], values: [&[f64]; 2]) -> Option<Column>
 
 /// A number to `digits` significant digits: the rest is far below any tolerance.
 pub(super) fn rounded(number: f64, digits: usize) -> f64 {
-    let text = format!("{number:.*e}", digits - 1);
-    text.parse().unwrap_or(number)
+    format!("{number:.*e}", digits - 1).parse().unwrap_or(number)
 }
 
 #[cfg(test)]

@@ -77,8 +77,7 @@ fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
 pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> {
     let mut bytes = Vec::new();
     let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
-    let written = picture.write_with_encoder(encoder);
-    written.map_err(|e| Error::file(path, e))?;
+    picture.write_with_encoder(encoder).map_err(|e| Error::file(path, e))?;
     write_whole(path, &bytes)
 }
 

@@ -9,16 +9,14 @@ const SECTION: &str = "\n## Which scheme to take\n";
 
 /// The table of the checkout that the program was built from, if there is one.
 pub(super) fn advice() -> Option<Table> {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md");
-    table(&read_text(&readme).ok()?)
+    table(&read_text(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../README.md")).ok()?)
 }
 
 /// The first table of the section. Code keeps its marks, numbers and links leave their text.
 fn table(readme: &str) -> Option<Table> {
     let (_, section) = readme.split_once(SECTION)?;
     let lines = section.split("\n## ").next()?.lines().skip_while(|line| !line.starts_with('|'));
-    let lines = lines.take_while(|line| line.starts_with('|'));
-    let mut rows = lines.map(|line| {
+    let mut rows = lines.take_while(|line| line.starts_with('|')).map(|line| {
         let cells = line.trim_matches('|').split('|').enumerate();
         let cell = |(k, cell): (usize, &str)| {
             let text = Text::marked(&without_comments(cell.trim())).unlinked();
@@ -27,15 +25,13 @@ fn table(readme: &str) -> Option<Table> {
         Row::from(cells.map(cell).collect::<Vec<_>>())
     });
     let head = rows.next()?.cells;
-    let rows = rows.skip(1).collect();
-    Some(Table { class: "prose", head, rows })
+    Some(Table { class: "prose", head, rows: rows.skip(1).collect() })
 }
 
 fn without_comments(cell: &str) -> String {
     let mut parts = cell.split("<!--");
     let first = parts.next().unwrap_or_default().to_owned();
-    let rest = parts.map(|part| part.split_once("-->").map_or("", |(_, after)| after));
-    first + &rest.collect::<String>()
+    first + &parts.map(|part| part.split_once("-->").map_or("", |(_, after)| after)).collect::<String>()
 }
 
 #[cfg(test)]

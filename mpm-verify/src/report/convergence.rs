@@ -63,12 +63,9 @@ pub(super) fn by_level(case: &Case, own: &[&Convergence], (title, name): (&str, 
     let mut levels = distinct(own.iter().flat_map(|c| &c.points).map(|p| &*p.level));
     levels.sort_by_key(|level| case.levels.iter().position(|l| l.name == *level));
     let row = |c: &&Convergence| {
-        let value = |level: &&str| {
-            let point = c.points.iter().find(|p| p.level == *level);
-            point.map_or(String::new(), |p| number(Some(p.value)))
-        };
-        let cells = levels.iter().map(value).chain([order(c), local_orders(c)]);
-        [name(c)].into_iter().chain(cells).collect()
+        let value =
+            |level: &&str| c.points.iter().find(|p| p.level == *level).map_or(String::new(), |p| number(Some(p.value)));
+        [name(c)].into_iter().chain(levels.iter().map(value).chain([order(c), local_orders(c)])).collect()
     };
     let head = [title].into_iter().chain(levels.iter().copied());
     Sheet::new(head.chain(["order", "between levels"])).with(own.iter().map(row))

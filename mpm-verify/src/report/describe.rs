@@ -78,8 +78,7 @@ pub fn explain(case: &Case) -> String {
         [first, second] => format!("{first:40}  {second}").into(),
         rest => rest.concat().into(),
     });
-    let title = "Schemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)";
-    list(title, lines.collect());
+    list("Schemes (--scheme NAME, or its parts: --basis, --remedy, --transfer)", lines.collect());
     let levels = case.levels.iter().map(|l| format!("{}  cells of {} m", l.name, l.h).into());
     list("Levels (--level L)", levels.collect());
     let metrics = case.metrics.iter().map(|m| format!("{} ({})  {}", m.name, m.unit, m.meaning).into());
@@ -88,8 +87,7 @@ pub fn explain(case: &Case) -> String {
     list("Wanted (a run is right only if each is right)", wanted.collect());
     let checks = case.checks.iter().map(|c| format!("{} [{}]  {}", c.name, kind(c.kind), c.statement).into());
     list("Checks", checks.collect());
-    let references = case.references.iter().map(|reference| reference.as_str().into());
-    list("References", references.collect());
+    list("References", case.references.iter().map(|reference| reference.as_str().into()).collect());
     list("Limits", case.limits.iter().map(|&limit| limit.into()).collect());
     document.terminal()
 }
@@ -156,8 +154,7 @@ pub(super) fn measured(case: &Case, r: &Record) -> String {
 /// The verdicts on a run; of bookkeeping its failures, and what holds on one line.
 pub(super) fn judged(r: &Record) -> String {
     let mut t = String::new();
-    let told = r.verdicts.iter().filter(|v| v.kind != Kind::Bookkeeping || v.failed());
-    t.extend(told.map(verdict_line));
+    t.extend(r.verdicts.iter().filter(|v| v.kind != Kind::Bookkeeping || v.failed()).map(verdict_line));
     let counted = r.verdicts.iter().filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
     let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
     if !counted.is_empty() {
@@ -198,8 +195,7 @@ pub fn outcome_word(r: &Record) -> String {
 /// The verdict on a run, in one line.
 #[must_use]
 pub fn run_line(r: &Record) -> String {
-    let of = outcome_of_run(r);
-    format!("Verdict: {}\n", painted(of, &cut(&sentence(r), WIDTH - 9)))
+    format!("Verdict: {}\n", painted(outcome_of_run(r), &cut(&sentence(r), WIDTH - 9)))
 }
 
 /// How far a result is from its golden, relative to it; infinite where there is nothing to compare.

@@ -80,8 +80,7 @@ impl Difference {
     /// How much differs.
     #[must_use]
     pub fn counts(&self) -> String {
-        let counts = [self.numbers.len(), self.verdicts.len(), self.pictures.len()];
-        let [numbers, verdicts, pictures] = counts;
+        let [numbers, verdicts, pictures] = [self.numbers.len(), self.verdicts.len(), self.pictures.len()];
         format!("{numbers} numbers, {verdicts} verdicts and {pictures} pictures differ.")
     }
 
@@ -104,8 +103,7 @@ impl Difference {
         let mut t = format!("# {old} against {new}\n\n{}\n", self.counts());
         let verdicts = self.verdicts.iter().map(|c| [&*c.what, c.old, c.new].map(str::to_owned).into());
         let numbers = self.numbers.iter().map(|c| {
-            let difference = c.old.zip(c.new).map(|(a, b)| b - a);
-            let numbers = [c.old, c.new, difference].map(number);
+            let numbers = [c.old, c.new, c.old.zip(c.new).map(|(a, b)| b - a)].map(number);
             [std::slice::from_ref(&c.what), &numbers].concat()
         });
         for sheet in [
@@ -170,8 +168,7 @@ fn numbers(summary: &Summary) -> BTreeMap<String, Option<f64>> {
             if let Some(order) = &entry.order {
                 let run = [&[entry.scheme.to_string()], &entry.set[..]].concat();
                 let run = run.join(" ");
-                let name = format!("{} {run} order of {}", study.case, entry.metric);
-                numbers.insert(name, Some(order.order));
+                numbers.insert(format!("{} {run} order of {}", study.case, entry.metric), Some(order.order));
             }
         }
     }
@@ -192,8 +189,7 @@ fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> R
     let pictures = files::files_in(folder, &["png"])?;
     let shown = pictures.iter().filter(|path| !path.ends_with(CPU_PICTURE));
     found.extend(shown.filter_map(|path| path.strip_prefix(root).map(Path::to_path_buf).ok()));
-    let folders = files::folders_in(folder)?;
-    folders.iter().try_for_each(|inner| list_pictures(root, inner, found))
+    files::folders_in(folder)?.iter().try_for_each(|inner| list_pictures(root, inner, found))
 }
 
 fn read_picture(path: &Path) -> Result<Option<RgbImage>, Error> {

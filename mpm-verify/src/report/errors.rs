@@ -57,7 +57,6 @@ impl Errors<'_> {
         let errors = case.quantities.iter().filter(|q| q.is_error);
         let chart = |q: &&Quantity, panel: &Panel| finish(q, panel, self.chart(q, panel));
         let place = out.join(case.name).join(name);
-        let files = Panels::new(&schemes).draw(&place, errors, chart)?;
-        Ok(Picture::of_files(case.name, files, caption))
+        Ok(Picture::of_files(case.name, Panels::new(&schemes).draw(&place, errors, chart)?, caption))
     }
 }

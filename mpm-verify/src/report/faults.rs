@@ -27,8 +27,7 @@ pub(super) fn faults() -> Vec<Fault> {
     let mut faults: Vec<Fault> = Vec::new();
     for [name, case, check] in reader.deserialize::<[String; 3]>().flatten() {
         if faults.last().is_none_or(|fault| fault.name != name) {
-            let seen_by = BTreeMap::new();
-            faults.push(Fault { name, seen_by });
+            faults.push(Fault { name, seen_by: BTreeMap::new() });
         }
         if let Some(fault) = faults.last_mut() {
             fault.seen_by.entry(case).or_default().push(check);

@@ -29,8 +29,7 @@ pub(super) fn add(study: &CaseStudy, night: &Night, out: &Path) -> Result<(), Er
     let path = out.join(FILE);
     let mut rows = read(&path)?;
     rows.retain(|row| row.night != night.date || row.case != study.case);
-    let ladder = cases::find(&study.case)?.ladder;
-    rows.extend(rows_of(study, ladder, night));
+    rows.extend(rows_of(study, cases::find(&study.case)?.ladder, night));
     write(&mut rows, &path)
 }
 
@@ -47,8 +46,7 @@ pub(super) fn merge(from: &Path, into: &Path) -> Result<(), Error> {
 /// Writes rows in the order of time and cases.
 fn write(rows: &mut [Row], path: &Path) -> Result<(), Error> {
     rows.sort_by_key(|row| (row.night, cases::place(&row.case)));
-    let text = rows_text(rows.iter()).map_err(|e| Error::file(path, e))?;
-    write_whole(path, &text)
+    write_whole(path, &rows_text(rows.iter()).map_err(|e| Error::file(path, e))?)
 }
 
 fn read(path: &Path) -> Result<Vec<Row>, Error> {
@@ -77,8 +75,7 @@ fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {
         value,
     };
     let mut rows = Vec::new();
-    let watched = |c: &&Convergence| c.is_error && c.set == ladder;
-    for entry in study.convergence.iter().filter(watched) {
+    for entry in study.convergence.iter().filter(|c| c.is_error && c.set == ladder) {
         let finest = entry.points.last();
         rows.extend(finest.map(|p| {
             let run = format!("{}/{}", entry.scheme, p.level);

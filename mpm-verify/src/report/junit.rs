@@ -10,8 +10,7 @@ use std::time::Duration;
 /// Writes `junit.xml` into `out`.
 pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
     let path = out.join("junit.xml");
-    let text = text(summary).map_err(|e| Error::file(&path, e))?;
-    write_whole(&path, text.as_bytes())
+    write_whole(&path, text(summary).map_err(|e| Error::file(&path, e))?.as_bytes())
 }
 
 /// Writes the verdicts on results of another code. One that stands in the way of its gate is a failure.
@@ -32,8 +31,7 @@ pub fn write_scored(scores: &Scores, gate: &Gate, file: &Path) -> Result<(), Err
     }
     let mut report = Report::new("mpm-verify score");
     report.add_test_suite(suite);
-    let text = report.to_string().map_err(|e| Error::file(file, e))?;
-    write_whole(file, text.as_bytes())
+    write_whole(file, report.to_string().map_err(|e| Error::file(file, e))?.as_bytes())
 }
 
 fn text(summary: &Summary) -> Result<String, quick_junit::SerializeError> {

@@ -56,8 +56,7 @@ fn require_small(path: &Path, bytes: usize, most: usize) -> Result<(), Error> {
     if bytes <= most {
         return Ok(());
     }
-    let cause = format!("{bytes} bytes where {most} are allowed; nothing is kept");
-    Err(Error::file(path, cause))
+    Err(Error::file(path, format!("{bytes} bytes where {most} are allowed; nothing is kept")))
 }
 
 /// The former rows, those of the same runs replaced, then the new ones, case by case; rows of cases that are known no

@@ -85,10 +85,8 @@ pub(super) struct Panel<'a> {
 /// A panel for every kind of solver that there are runs of.
 pub(super) fn panels<'a>(records: impl IntoIterator<Item = &'a Record>, speed: &Speed) -> Vec<Panel<'a>> {
     let records: Vec<&Record> = records.into_iter().collect();
-    let panel = |name| {
-        let own = records.iter().filter(|r| panel_of(r.scheme()) == name);
-        Panel::of(name, own.copied().collect(), speed)
-    };
+    let panel =
+        |name| Panel::of(name, records.iter().filter(|r| panel_of(r.scheme()) == name).copied().collect(), speed);
     PANELS.into_iter().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
 }
 
@@ -139,8 +137,7 @@ impl<'a> Panel<'a> {
     pub(super) fn table(&self, title: impl Fn(&str) -> Text, is_page: bool) -> Table {
         let number = |text: &str| document::Cell::of(text, "num");
         let first = |name: &str, numbers: Vec<&str>| {
-            let numbers = numbers.into_iter().map(number);
-            [document::Cell::head(name)].into_iter().chain(numbers).collect::<Vec<_>>()
+            [document::Cell::head(name)].into_iter().chain(numbers.into_iter().map(number)).collect::<Vec<_>>()
         };
         let cases = self.cases.iter().map(|case| document::Cell::of(title(case), "steep"));
         let cell = |cell: &Option<Cell>| match cell {

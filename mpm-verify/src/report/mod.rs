@@ -154,8 +154,7 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
     let account = if path.exists() { read_text(&path)? } else { String::new() };
     let claimed = account == CLAIM;
     let own: BTreeSet<&str> = account.lines().skip(1).collect();
-    let foreign = |file: &&PathBuf| !claimed && !own.contains(&*file.display().to_string());
-    if let Some(first) = places.iter().find(foreign) {
+    if let Some(first) = places.iter().find(|file| !claimed && !own.contains(&*file.display().to_string())) {
         let cause = "in the way, and not of a report of this program: name another folder";
         return Err(Error::file(&out.join(first), cause));
     }
@@ -164,8 +163,7 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
 
 /// The files in `out` that have the place and the kind of a report's, of whatever cases: their paths from there.
 fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
-    let pages = [SUMMARY, "summary.md", "junit.xml", "index.html", "faults.html"].map(PathBuf::from);
-    let mut files = pages.to_vec();
+    let mut files = [SUMMARY, "summary.md", "junit.xml", "index.html", "faults.html"].map(PathBuf::from).to_vec();
     files.extend(["png", "svg"].map(|e| PathBuf::from(format!("{}.{e}", speed::NAME))));
     for case in cases::all() {
         let folder = Path::new(case.name);
@@ -177,11 +175,9 @@ fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
         for scheme in folders_in(&out.join(&drift))? {
             found.extend(files_in(&scheme, &["png", "part"])?);
         }
-        let below = |file: &PathBuf| file.strip_prefix(out).map(Path::to_path_buf).ok();
-        files.extend(found.iter().filter_map(below));
+        files.extend(found.iter().filter_map(|file| file.strip_prefix(out).map(Path::to_path_buf).ok()));
     }
-    let is_there = |file: &PathBuf| out.join(file).symlink_metadata().is_ok();
-    files.retain(is_there);
+    files.retain(|file| out.join(file).symlink_metadata().is_ok());
     files.sort();
     files.dedup();
     Ok(files)

@@ -212,8 +212,7 @@ impl Prices {
         let head = ["scheme", "particle–node pairs (10⁶)", "CPU time (s)", "× cheapest", "least error"];
         let row = |row: &Price| {
             let [pairs, cpu] = row.shown();
-            let least = words::number(Some(rounded(row.least)));
-            vec![row.name(), pairs, cpu, self.relative(row), least]
+            vec![row.name(), pairs, cpu, self.relative(row), words::number(Some(rounded(row.least)))]
         };
         Sheet::new(head).with(self.rows.iter().map(row))
     }

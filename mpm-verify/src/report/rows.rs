@@ -221,10 +221,9 @@ pub(super) fn read(path: &Path) -> Result<Vec<Row>, Error> {
     let rows = read_rows::<Row>(path)?.into_iter();
     rows.map(|mut row| {
         let cells = std::mem::take(&mut row.cells);
-        let metrics = names.metrics(&row.case, &cells).ok_or_else(|| {
-            let cause = format!("{}: a metric without a name or number", row.run().join(" "));
-            Error::file(path, cause)
-        });
+        let metrics = names
+            .metrics(&row.case, &cells)
+            .ok_or_else(|| Error::file(path, format!("{}: a metric without a name or number", row.run().join(" "))));
         row.metrics = metrics?;
         Ok(row)
     })

@@ -52,8 +52,7 @@ impl Ours {
             let absent = format!("our runs: no {RESULTS} here; a checkout of the project has it");
             return Ok(Self { runs: Vec::new(), absent: Some(absent) });
         }
-        let of_case = |row: &rows::Row| row.case == scored.case.name;
-        let kept = rows::read(&file)?.into_iter().filter(of_case);
+        let kept = rows::read(&file)?.into_iter().filter(|row| row.case == scored.case.name);
         let kept: Vec<Record> = kept.filter_map(|row| row.record()).collect();
         let asked = &scored.record;
         let own = match asked.is_default() {
@@ -202,8 +201,7 @@ fn run_json(scored: &Scored, ours: &Ours) -> Value {
 
 /// A text of the user's as it is in Markdown: no link, picture or mark comes of it.
 fn inert(text: &str) -> String {
-    let escaped = |c: char| if "\\`*[]!".contains(c) { vec!['\\', c] } else { vec![c] };
-    text.chars().flat_map(escaped).collect()
+    text.chars().flat_map(|c| if "\\`*[]!".contains(c) { vec!['\\', c] } else { vec![c] }).collect()
 }
 
 /// Writes `score.md` and `verdicts.json`.

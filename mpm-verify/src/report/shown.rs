@@ -104,8 +104,7 @@ fn wanted(source: Source) -> String {
 
 /// Draws errors over cell size, cost and swept parameters of every case that has rows.
 fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
-    let kept = rows::read(results)?;
-    let mut records: Vec<Record> = kept.iter().filter_map(rows::Row::record).collect();
+    let mut records: Vec<Record> = rows::read(results)?.iter().filter_map(rows::Row::record).collect();
     let none = |_: &Record| Err(Error::Input("a kept row has no folder".to_owned()));
     let mut gallery = Gallery::new("results", &records, &none, out);
     together::draw(&mut gallery)?;
@@ -146,11 +145,9 @@ fn place(from: &Path, to: &Path) -> Result<(), Error> {
     if bytes.len() as u64 <= MOST {
         write_whole(to, &bytes)?;
     } else if is_png {
-        let picture = image::load_from_memory(&bytes).map_err(|e| Error::file(from, e))?;
-        fit(&picture.to_rgb8(), to)?;
+        fit(&image::load_from_memory(&bytes).map_err(|e| Error::file(from, e))?.to_rgb8(), to)?;
     } else {
-        let cause = format!("{} bytes where {MOST} are allowed", bytes.len());
-        return Err(Error::file(to, cause));
+        return Err(Error::file(to, format!("{} bytes where {MOST} are allowed", bytes.len())));
     }
     discard(&to.with_extension(if is_png { "svg" } else { "png" }))
 }
@@ -162,8 +159,7 @@ fn fit(picture: &RgbImage, to: &Path) -> Result<(), Error> {
     loop {
         let [width, height] = [picture.width(), picture.height()].map(|n| (share * f64::from(n)) as u32);
         if width < LEAST_WIDTH {
-            let cause = format!("more than {MOST} bytes even {width} pixels wide");
-            return Err(Error::file(to, cause));
+            return Err(Error::file(to, format!("more than {MOST} bytes even {width} pixels wide")));
         }
         let mut small = imageops::resize(picture, width, height, FilterType::Triangle);
         for channel in small.iter_mut() {

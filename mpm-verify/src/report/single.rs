@@ -89,8 +89,7 @@ fn history(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Op
     let chart = |name: &&str| {
         let (at, values) = (table.iter().next(), table.column(name).iter());
         let points = at.map_or(&[][..], |(_, at)| at).iter().copied().zip(values.copied()).collect();
-        let header = table.iter().map(|(header, _)| header);
-        let label = header.filter(|h| h.split(" (").next() == Some(name)).last();
+        let label = table.iter().map(|(header, _)| header).filter(|h| h.split(" (").next() == Some(name)).last();
         Chart::new("", [table.abscissa(), label.unwrap_or(name)], vec![Series::line("", points, 0)])
     };
     let charts: Vec<Chart> = case.watched.iter().map(chart).collect();
@@ -99,6 +98,5 @@ fn history(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Op
         return Ok(None);
     }
     draw_charts(&out.join(&file), &charts, charts.len().min(2))?;
-    let caption = format!("{}: what the run went through.", record.folder());
-    Ok(Some(Picture { file, caption }))
+    Ok(Some(Picture { file, caption: format!("{}: what the run went through.", record.folder()) }))
 }

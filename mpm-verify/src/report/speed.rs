@@ -49,8 +49,7 @@ impl Speed {
             row.into_iter().chain(remedies.iter().map(ratio)).collect()
         };
         let head = ["problem", "target: error", "cheapest scheme", "pairs (10⁶)", "CPU (s)"];
-        let head = head.into_iter().chain(remedies.iter().map(|r| r.text()));
-        Sheet::new(head).with(self.0.iter().map(row))
+        Sheet::new(head.into_iter().chain(remedies.iter().map(|r| r.text()))).with(self.0.iter().map(row))
     }
 
     /// The median over all motions of what the target error costs with a scheme, over what it costs with the cheapest, and

@@ -15,8 +15,7 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
     let panels = map::panels(summary.records(), speed);
     if !panels.is_empty() {
         document.section("", "Map");
-        let symbols = map::legend().map(|[symbol, text, _]| format!("{symbol} {text}"));
-        document.paragraph(symbols.join(", "));
+        document.paragraph(map::legend().map(|[symbol, text, _]| format!("{symbol} {text}")).join(", "));
     }
     for panel in panels {
         document.heading(3, "", panel.name);
@@ -82,11 +81,9 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
 /// Programs that made the runs, case by case.
 pub(super) fn programs(summary: &Summary) -> Sheet {
     let row = |study: &CaseStudy| {
-        let first = [study.case.clone(), study.records.len().to_string()];
-        first.into_iter().chain(words::made_by(study)).collect()
+        [study.case.clone(), study.records.len().to_string()].into_iter().chain(words::made_by(study)).collect()
     };
-    let head = ["case", "runs", "program", "night", "commit"];
-    Sheet::new(head).with(summary.cases.iter().map(row))
+    Sheet::new(["case", "runs", "program", "night", "commit"]).with(summary.cases.iter().map(row))
 }
 
 fn failures(document: &mut Document, summary: &Summary) {

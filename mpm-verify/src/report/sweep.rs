@@ -31,15 +31,13 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         let (parameter, label) = (sweep.parameter.name, sweep.label);
         let name = format!("sweep-{parameter}");
         let header = ["quantity", "scheme", "level", parameter, label, "value"];
-        let place = out.join(case.name).join(format!("{name}.csv"));
-        write_csv(&place, &header.map(str::to_owned), rows)?;
+        write_csv(&out.join(case.name).join(format!("{name}.csv")), &header.map(str::to_owned), rows)?;
         let caption = format!(
             "Error at level {} over the values of {parameter}, for every scheme that ran at least {LEAST_VALUES} of them.",
             runs.level
         );
         let errors = Errors { entries, label, is_logarithmic: sweep.logarithmic };
-        let shown = (&*format!("{name}.png"), &*caption);
-        pictures.extend(errors.draw(case, shown, out, |_, _, chart| chart)?);
+        pictures.extend(errors.draw(case, (&*format!("{name}.png"), &*caption), out, |_, _, chart| chart)?);
     }
     Ok(pictures)
 }
@@ -60,8 +58,7 @@ impl<'a> Runs<'a> {
             for record in records.iter().filter(|r| r.level == level) {
                 if record.is_default() || record.changes_only(sweep.parameter.name) {
                     let value = record.parameters.number(sweep.parameter);
-                    let runs = of_scheme.entry(record.scheme()).or_default();
-                    runs.push((value, record));
+                    of_scheme.entry(record.scheme()).or_default().push((value, record));
                 }
             }
             of_scheme.retain(|_, runs| {
@@ -76,10 +73,9 @@ impl<'a> Runs<'a> {
 
     /// Whether some scheme has measured a quantity at enough values of the parameter.
     fn measure(&self, quantity: &Quantity) -> bool {
-        self.of_scheme.values().any(|runs| {
-            let measured = |run: &&(f64, &Record)| run.1.metric(quantity.metric).is_finite();
-            runs.iter().filter(measured).count() >= LEAST_VALUES
-        })
+        self.of_scheme
+            .values()
+            .any(|runs| runs.iter().filter(|run| run.1.metric(quantity.metric).is_finite()).count() >= LEAST_VALUES)
     }
 
     fn all(&self) -> impl Iterator<Item = (&Scheme, f64, &Record)> {

@@ -97,8 +97,7 @@ impl Page {
         }
         let text = summary::of_rows(studies, &nights)?;
         if text.len() > MOST_GIST {
-            let cause = format!("{} bytes where {MOST_GIST} are allowed", text.len());
-            return Err(Error::file(&file, cause));
+            return Err(Error::file(&file, format!("{} bytes where {MOST_GIST} are allowed", text.len())));
         }
         let same = file.exists() && read_text(&file)? == text;
         let stale = if same { Vec::new() } else { vec!["all of it".to_owned()] };
@@ -128,8 +127,7 @@ impl Page {
             };
             let name = name.trim_end_matches(CLOSE);
             let Some(table) = tables.get(name) else {
-                let known = tables.keys().map(String::as_str);
-                return Err(refuse(Error::unknown("table", name, known).to_string()));
+                return Err(refuse(Error::unknown("table", name, tables.keys().map(String::as_str)).to_string()));
             };
             let mut former = String::new();
             loop {
@@ -172,20 +170,17 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         })
     };
     let table = |table: &ResultTable, case: Option<&str>| {
-        let of_case = records().filter(|r| case.is_none_or(|case| r.case == case));
-        let (sheet, told) = table.fill(of_case);
+        let (sheet, told) = table.fill(records().filter(|r| case.is_none_or(|case| r.case == case)));
         (table.name.clone(), sheet.markdown() + &oldest(&told))
     };
-    let studies = cases::all().iter().map(|case| {
-        let own = records().filter(|r| r.case == case.name);
-        CaseStudy::new(case.name, own.cloned().collect())
-    });
+    let studies = cases::all()
+        .iter()
+        .map(|case| CaseStudy::new(case.name, records().filter(|r| r.case == case.name).cloned().collect()));
     let studies: Vec<CaseStudy> = studies.collect();
     let speed = Speed::of(&studies);
     let wrapped = |text: &str| {
         let options = textwrap::Options::new(LINE);
-        let options = options.word_splitter(textwrap::WordSplitter::NoHyphenation);
-        textwrap::fill(text, options)
+        textwrap::fill(text, options.word_splitter(textwrap::WordSplitter::NoHyphenation))
     };
     let nights = || kept.iter().map(|(_, night)| night);
     let outcomes = match (nights().min(), nights().max()) {
@@ -220,8 +215,7 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     let over_cases = criteria::all();
     let over_cases = over_cases.iter().map(|t| table(t, None)).chain(map);
     let costs = [("outcomes", outcomes), (speed::NAME, prices), (rivals::NAME, rivals)];
-    let costs = costs.map(|(name, text)| (name.to_owned(), text));
-    of_cases.chain(over_cases).chain(costs).collect()
+    of_cases.chain(over_cases).chain(costs.map(|(name, text)| (name.to_owned(), text))).collect()
 }
 
 #[cfg(test)]

@@ -66,8 +66,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let Pictures { schemes, picture } = Pictures::read()?;
     for PictureOf { name, panel } in picture {
         let panels = panel.iter().map(|plot| plot.panel(&schemes, gallery.records));
-        let panels = panels.collect::<Result<Vec<_>, Error>>()?;
-        Figure::new(name, "", panels).whole().draw(gallery)?;
+        Figure::new(name, "", panels.collect::<Result<Vec<_>, Error>>()?).whole().draw(gallery)?;
     }
     Ok(())
 }

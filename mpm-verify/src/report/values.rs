@@ -58,8 +58,7 @@ impl Values {
     /// A number of a run, or the reason for its absence.
     fn value(&self, of: &str) -> Result<f64, &'static str> {
         let (run, metric) = of.rsplit_once(' ').ok_or("a run and a metric are wanted")?;
-        let run = self.0.iter().find(|(known, _)| known == run);
-        let (_, record) = run.ok_or("no such run is kept")?;
+        let (_, record) = self.0.iter().find(|(known, _)| known == run).ok_or("no such run is kept")?;
         Some(quantity(record, metric)).filter(|v| v.is_finite()).ok_or("its row keeps no such metric")
     }
 }
@@ -83,8 +82,7 @@ pub(super) fn read_format(format: &str) -> Option<Format> {
         (None, None) => fixed,
         (Some(_), None) => return None,
     };
-    let decimals = format.trim_matches(|c| matches!(c, '+' | '%' | 'e'));
-    Some(of(decimals.parse().ok()?))
+    Some(of(format.trim_matches(|c| matches!(c, '+' | '%' | 'e')).parse().ok()?))
 }
 
 #[cfg(test)]

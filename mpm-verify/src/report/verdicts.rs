@@ -29,8 +29,7 @@ pub(super) fn table<'a>(verdicts: impl IntoIterator<Item = (Option<Text>, &'a Ve
         run.map(Cell::from).into_iter().chain(cells).into()
     };
     let rows: Vec<Row> = verdicts.into_iter().map(row).collect();
-    let named = rows.first().is_some_and(|row| row.cells.len() > HEAD.len());
-    let run = named.then(|| Cell::from("run"));
+    let run = rows.first().is_some_and(|row| row.cells.len() > HEAD.len()).then(|| Cell::from("run"));
     let head = HEAD.map(|title| match title {
         "value" | "reference" | "tolerance" => Cell::of(title, "num"),
         _ => Cell::from(title),
@@ -79,8 +78,7 @@ pub(super) fn of_case(study: &CaseStudy) -> impl Iterator<Item = (Option<&Record
 
 /// The runs that broke down and were not known to, each with the message.
 pub(super) fn broken(summary: &Summary) -> impl Iterator<Item = (&CaseStudy, &Record, &str)> {
-    let runs = summary.cases.iter().flat_map(|study| study.records.iter().map(move |r| (study, r)));
-    runs.filter_map(|(study, r)| {
+    summary.cases.iter().flat_map(|study| study.records.iter().map(move |r| (study, r))).filter_map(|(study, r)| {
         let error = r.error.as_ref().filter(|_| r.broke_down())?;
         Some((study, r, &*error.message))
     })

@@ -54,8 +54,7 @@ fn joined<'a>(parts: impl Iterator<Item = &'a str>) -> Vec<String> {
 
 /// A number, whose exponent may be Fortran's.
 fn number(cell: &str) -> Option<f64> {
-    let fortran = || cell.replace(['D', 'd'], "e").parse().ok();
-    cell.parse().ok().or_else(fortran)
+    cell.parse().ok().or_else(|| cell.replace(['D', 'd'], "e").parse().ok())
 }
 
 fn table(bytes: &[u8]) -> Result<(Table, Vec<u64>), String> {
@@ -89,8 +88,7 @@ fn table(bytes: &[u8]) -> Result<(Table, Vec<u64>), String> {
             return Err(format!("more rows than the {MOST_ROWS} that are allowed"));
         }
         for ((column, head), cell) in columns.iter_mut().zip(&heads).zip(cells(&record, blanks)) {
-            let value = number(cell).filter(|value| value.is_finite());
-            column.push(value.ok_or_else(|| unread(line, head, cell))?);
+            column.push(number(cell).filter(|value| value.is_finite()).ok_or_else(|| unread(line, head, cell))?);
         }
         lines.push(line);
     }
@@ -108,8 +106,7 @@ fn line_of(record: &StringRecord, bytes: &[u8]) -> u64 {
 /// The message for a cell that is no finite number.
 fn unread(line: u64, head: &str, cell: &str) -> String {
     let shown: String = cell.chars().take(SHOWN).collect();
-    let has_comma = cell.replacen(',', ".", 1).parse::<f64>().is_ok();
-    let comma = if has_comma { " with a decimal point" } else { "" };
+    let comma = if cell.replacen(',', ".", 1).parse::<f64>().is_ok() { " with a decimal point" } else { "" };
     format!("line {line}, column {head:?}: {shown:?}; allowed: finite numbers{comma}")
 }
 

@@ -28,8 +28,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let parameters = Parameters::new(&case.parameters, &spec.set)?;
     let form_file = folder.join(FILE);
     if form_file.symlink_metadata().is_ok() {
-        let said = "it is there, and may be filled in; allowed: a folder without it";
-        return Err(Error::file(&form_file, said));
+        return Err(Error::file(&form_file, "it is there, and may be filled in; allowed: a folder without it"));
     }
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;

@@ -29,8 +29,7 @@ impl Gate {
         let Some(unknown) = self.require.iter().find(|name| !names.contains(&&***name)) else { return Ok(()) };
         let distance = |name: &&&str| strsim::damerau_levenshtein(unknown, name);
         let nearest = names.iter().min_by_key(distance).copied().unwrap_or_default();
-        let kind = format!("check of {}", case.name);
-        let said = Error::unknown(&kind, unknown, names.iter().copied());
+        let said = Error::unknown(&format!("check of {}", case.name), unknown, names.iter().copied());
         Err(Error::Input(format!("--require: {said}; the nearest is {nearest}")))
     }
 

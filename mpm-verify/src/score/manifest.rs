@@ -208,8 +208,7 @@ impl Manifest {
         let of_file = |e| refused(0, e);
         let Versioned { schema, runs } = serde_json::from_str(&text).map_err(of_file)?;
         if schema != SCHEMA {
-            let said = format!("schema {schema} where {SCHEMA} is read");
-            return Err(Error::file(&path, said));
+            return Err(Error::file(&path, format!("schema {schema} where {SCHEMA} is read")));
         }
         let Some(runs) = runs else { return Ok(vec![serde_json::from_str(&text).map_err(of_file)?]) };
         if !(1..=MOST).contains(&runs.len()) {

@@ -74,8 +74,7 @@ impl Scores {
             let names: Vec<String> = own.iter().map(|run| run.name()).collect();
             (names.join(", "), together(case, &own))
         });
-        let together = together.collect();
-        Ok(Self { case, code, together, runs })
+        Ok(Self { case, code, together: together.collect(), runs })
     }
 
     /// Counts and verdicts of all runs, as for our own.
@@ -241,8 +240,7 @@ fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], 
 
 /// The demands on every code among verdicts, without known limits of our schemes. One with a reason is not judged.
 fn demands(all: Vec<Verdict>, why: impl Fn(&Verdict) -> Option<String>) -> impl Iterator<Item = Verdict> {
-    let of_code = |v: &Verdict| matches!(v.kind, Kind::Truth | Kind::Bookkeeping);
-    all.into_iter().filter(of_code).map(move |v| match why(&v) {
+    all.into_iter().filter(|v| matches!(v.kind, Kind::Truth | Kind::Bookkeeping)).map(move |v| match why(&v) {
         Some(why) => Verdict { outcome: Outcome::NotJudged, value: None, source: why, ..v },
         None => v,
     })

@@ -53,10 +53,8 @@ type Ladders<'a> = BTreeMap<(Scheme, &'a str), Vec<&'a Record>>;
 /// The convergence of every quantity of `case`, scheme by scheme: over its own runs, then over those at each set of others, in order of appearance, that a scheme has run at three levels.
 #[must_use]
 pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
-    let own = (case.own_runs)(records);
-    let mut all = over_levels(case, &[], &ladders(own.into_iter()));
-    let changed = records.iter().filter(|r| !r.is_default());
-    for set in distinct(changed.map(|r| &r.set[..])) {
+    let mut all = over_levels(case, &[], &ladders((case.own_runs)(records).into_iter()));
+    for set in distinct(records.iter().filter(|r| !r.is_default()).map(|r| &r.set[..])) {
         let mut ladders = ladders(records.iter().filter(|r| r.set == set));
         ladders.retain(|_, ladder| ladder.len() >= LEAST_LEVELS);
         all.extend(over_levels(case, set, &ladders));
@@ -71,15 +69,13 @@ pub fn precision(case: &Case, records: &[Record]) -> Vec<Convergence> {
     let own = || records.iter().filter(|r| is_of_own_problem(r));
     let mut sets = distinct(own().map(|r| &r.set[..]));
     sets.sort_by_key(|set| set.len());
-    let of_set = |set: &[String]| over_levels(case, set, &ladders(own().filter(|r| r.set == set)));
-    sets.into_iter().flat_map(of_set).collect()
+    sets.into_iter().flat_map(|set| over_levels(case, set, &ladders(own().filter(|r| r.set == set)))).collect()
 }
 
 fn ladders<'a>(records: impl Iterator<Item = &'a Record>) -> Ladders<'a> {
     let mut ladders = Ladders::new();
     for record in records {
-        let ladder = ladders.entry((record.scheme(), stem(&record.level)));
-        ladder.or_default().push(record);
+        ladders.entry((record.scheme(), stem(&record.level))).or_default().push(record);
     }
     ladders
 }

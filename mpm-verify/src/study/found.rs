@@ -42,8 +42,7 @@ pub fn own_record(folder: &Path, case: &Case, spec: &RunSpec) -> Result<Option<R
 /// Checks what no run can have.
 fn require_possible(record: &Record) -> Result<(), Refusal> {
     let (d, time) = (&record.discretisation, record.time);
-    let above = |value: f64| value.is_finite() && value > 0.0;
-    let lengths = [d.h, d.dt].into_iter().all(above);
+    let lengths = [d.h, d.dt].into_iter().all(|value| value.is_finite() && value > 0.0);
     let times = [time.wall_s, time.cpu_s].into_iter().all(|t| t.is_finite() && t >= 0.0);
     let counts = (1..=3).contains(&d.dim) && record.machine.cores > 0 && record.machine.threads > 0;
     match lengths && times && counts {

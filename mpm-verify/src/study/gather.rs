@@ -64,8 +64,7 @@ impl Gathered {
             Ok((case, spec))
         };
         let (case, spec) = known().map_err(|e| Error::file(&path, e))?;
-        let found = record_in(folder, case, &spec)?;
-        Ok(Self::single(found.unwrap_or(record), folder))
+        Ok(Self::single(record_in(folder, case, &spec)?.unwrap_or(record), folder))
     }
 
     /// Reads runs that were made one by one.
@@ -112,8 +111,7 @@ impl Gathered {
                 missing.push(run);
                 continue;
             };
-            let place = run.folder().display().to_string();
-            gathered.folders.insert(place, folder);
+            gathered.folders.insert(run.folder().display().to_string(), folder);
             match gathered.studies.last_mut() {
                 Some(study) if study.case == run.case => study.records.push(record),
                 _ => gathered.studies.push(CaseStudy::new(&run.case, vec![record])),
@@ -246,8 +244,7 @@ fn read_record(root: &Path, run: &PlannedRun) -> Result<Option<Record>, Error> {
     let (folder, (case, spec)) = (root.join(run.folder()), run.resolve()?);
     match record_in(&folder, case, &spec)? {
         Some(record) if record.set != run.set => {
-            let cause = format!("of another run: {} {}", record.case, record.folder());
-            Err(Error::file(&folder.join(RECORD), cause))
+            Err(Error::file(&folder.join(RECORD), format!("of another run: {} {}", record.case, record.folder())))
         }
         found => Ok(found),
     }

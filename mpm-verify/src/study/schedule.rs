@@ -102,15 +102,11 @@ impl Task {
             Ok(Some(record)) => return Ok(record),
             Err(why) => listener.begins_again(k, &why),
         }
-        let run = |saving| {
-            let place = Some((self.folder.as_path(), saving));
-            judged_run(self.case, &self.spec, place, 1, &|_| {})
-        };
+        let run = |saving| judged_run(self.case, &self.spec, Some((self.folder.as_path(), saving)), 1, &|_| {});
         match run(saving) {
             Err(why @ Error::Checkpoint { .. }) => {
                 listener.begins_again(k, &why);
-                let resume = false;
-                run(Saving { resume, ..saving })
+                run(Saving { resume: false, ..saving })
             }
             other => other,
         }

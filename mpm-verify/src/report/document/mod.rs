@@ -41,8 +41,7 @@ impl Text {
         let (mut text, mut rest) = (Self::default(), words);
         loop {
             let found = marks.iter().filter_map(|mark| Some((rest.find(mark.0)?, mark)));
-            let first = found.min_by_key(|(place, _)| *place);
-            let parts = first.and_then(|(place, (open, close, kind))| {
+            let parts = found.min_by_key(|(place, _)| *place).and_then(|(place, (open, close, kind))| {
                 let (inner, after) = rest[place + open.len()..].split_once(close)?;
                 Some((&rest[..place], inner, *kind, after))
             });
@@ -132,15 +131,13 @@ pub(super) struct Cell {
 
 impl<T: Into<Text>> From<T> for Cell {
     fn from(text: T) -> Self {
-        let text = text.into();
-        Self { text, ..Self::default() }
+        Self { text: text.into(), ..Self::default() }
     }
 }
 
 impl Cell {
     pub(super) fn of(text: impl Into<Text>, class: &str) -> Self {
-        let class = class.to_owned();
-        Self { class, ..Self::from(text) }
+        Self { class: class.to_owned(), ..Self::from(text) }
     }
 
     /// Head of a row.
@@ -291,8 +288,7 @@ impl Document {
     }
 
     pub(super) fn classed(&mut self, class: &'static str, text: impl Into<Text>) {
-        let text = text.into();
-        self.blocks.push(Block::Paragraph { class, text });
+        self.blocks.push(Block::Paragraph { class, text: text.into() });
     }
 
     pub(super) fn table(&mut self, caption: impl Into<String>, table: impl Into<Table>) {
@@ -305,13 +301,11 @@ impl Document {
     }
 
     pub(super) fn drawing(&mut self, svg: String, caption: &str) {
-        let caption = caption.to_owned();
-        self.blocks.push(Block::Drawing { svg, caption });
+        self.blocks.push(Block::Drawing { svg, caption: caption.to_owned() });
     }
 
     pub(super) fn list(&mut self, items: impl IntoIterator<Item = impl Into<Text>>) {
-        let items = items.into_iter().map(Into::into).collect();
-        self.blocks.push(Block::List { items });
+        self.blocks.push(Block::List { items: items.into_iter().map(Into::into).collect() });
     }
 
     pub(super) fn facts(&mut self, facts: impl IntoIterator<Item = (&'static str, String)>) {

@@ -18,21 +18,18 @@ struct Page<'a> {
 impl Document {
     /// Writes it as a page with links to others at its head.
     pub(in crate::report) fn write_page(&self, title: &str, links: Vec<Text>, path: &Path) -> Result<(), Error> {
-        let text = self.page(title, links).map_err(|e| Error::file(path, e))?;
-        write_whole(path, text.as_bytes())
+        write_whole(path, self.page(title, links).map_err(|e| Error::file(path, e))?.as_bytes())
     }
 
     fn page(&self, title: &str, links: Vec<Text>) -> Result<String, minijinja::Error> {
         let mut environment = Environment::new();
         environment.set_undefined_behavior(UndefinedBehavior::Strict);
         environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        let syntax = SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?;
-        environment.set_syntax(syntax);
+        environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
         environment.add_template("style.css", include_str!("../../../templates/style.css"))?;
         environment.add_template("page.html", include_str!("../../../templates/page.html"))?;
         let page = environment.get_template("page.html")?;
-        let blocks = &self.blocks;
-        let text = page.render(Value::from(Serde(Page { title, links, blocks })))?;
+        let text = page.render(Value::from(Serde(Page { title, links, blocks: &self.blocks })))?;
         // A slash needs no escape within text and quoted values; runs and files have many.
         Ok(text.replace("&#x2f;", "/"))
     }

@@ -25,8 +25,7 @@ pub(in crate::report) fn painted(of: Outcome, text: &str) -> String {
 
 /// A text in lines that begin with `indent`.
 pub(in crate::report) fn wrapped(text: &str, first: &str, indent: &str) -> String {
-    let options = textwrap::Options::new(WIDTH).initial_indent(first).subsequent_indent(indent);
-    textwrap::fill(text, options) + "\n"
+    textwrap::fill(text, textwrap::Options::new(WIDTH).initial_indent(first).subsequent_indent(indent)) + "\n"
 }
 
 /// The start of a text that fits this number of columns.
@@ -50,8 +49,7 @@ impl Block {
             let words = text.words();
             let mut lines = words.lines();
             let first = lines.next().map(|line| wrapped(line, "  ", "      "));
-            let rest = lines.map(|line| wrapped(line, "      ", "      "));
-            first.into_iter().chain(rest).collect::<String>()
+            first.into_iter().chain(lines.map(|line| wrapped(line, "      ", "      "))).collect::<String>()
         };
         match self {
             Self::Heading { level: 1, text, .. } => wrapped(&text.words(), "", "  "),
@@ -87,12 +85,8 @@ pub(in crate::report) fn aligned(sheet: Sheet) -> String {
     let sheet = fitting(sheet);
     let widths = widths(&sheet);
     let titles = sheet.head.iter().zip(&widths);
-    let titles: Vec<Vec<String>> = titles
-        .map(|(title, width)| {
-            let lines = textwrap::wrap(title, *width);
-            lines.iter().map(ToString::to_string).collect()
-        })
-        .collect();
+    let titles: Vec<Vec<String>> =
+        titles.map(|(title, width)| textwrap::wrap(title, *width).iter().map(ToString::to_string).collect()).collect();
     let height = titles.iter().map(Vec::len).max().unwrap_or(0);
     let line = |cells: Vec<&str>| {
         let cells = cells.iter().zip(&widths).enumerate().map(|(k, (cell, width))| match k {
@@ -103,8 +97,7 @@ pub(in crate::report) fn aligned(sheet: Sheet) -> String {
     };
     let head = (0..height).map(|k| {
         let cell = |title: &'_ Vec<String>| (k + title.len()).checked_sub(height);
-        let cells = titles.iter().map(|t| cell(t).map_or("", |place| &*t[place]));
-        line(cells.collect())
+        line(titles.iter().map(|t| cell(t).map_or("", |place| &*t[place])).collect())
     });
     let rows = sheet.rows.iter().map(|row| line(row.iter().map(String::as_str).collect()));
     head.chain(rows).collect()

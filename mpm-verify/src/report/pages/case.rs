@@ -152,8 +152,7 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
         let first = [Cell::head(r.scheme().to_string()), level.into(), set.into()];
         let verdict = [Text::badge(outcome).into(), why.into()];
         let values = case.headlines.iter().map(|h| h.of_run(r)).chain([number(Some(r.time.cpu_s))]).map(Cell::from);
-        let cells = first.into_iter().chain(verdict).chain(values).collect();
-        Row { id: anchor(r), cells }
+        Row { id: anchor(r), cells: first.into_iter().chain(verdict).chain(values).collect() }
     };
     let head = ["scheme", "level", "changed", "verdict", "for"].map(Cell::from);
     let values = case.headlines.iter().map(|h| Cell::from(&*h.title));
@@ -173,10 +172,8 @@ fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Table {
     let others = distinct(others.map(|v| (&*v.check, v.kind, &*v.source)));
     let declared = case.checks.iter().map(|c| (c.name, c.kind, c.statement));
     let row = |(name, of, statement): (&str, Kind, &str)| -> Row {
-        let count = |outcome| {
-            let own = all().filter(|v| v.check == name && v.outcome == outcome);
-            Cell::of(own.count().to_string(), "num")
-        };
+        let count =
+            |outcome| Cell::of(all().filter(|v| v.check == name && v.outcome == outcome).count().to_string(), "num");
         let seen = match faults::seen(seeded, case.name, name) {
             0 => String::new(),
             n => n.to_string(),
@@ -193,15 +190,13 @@ fn set_up(page: &mut Document, case: &Case) {
     let title = "Set-up: geometry, parameters, schemes, levels, references";
     page.folded("set-up", title, |page| {
         page.drawing(sketch::svg(&case.sketch, case.title), case.sketch.description);
-        let parameters = case.parameters.iter().map(|p| {
-            let allowed = p.domain.to_string();
-            [p.name, p.unit, p.default, &allowed, p.meaning].map(str::to_owned).into()
-        });
-        let head = ["name", "unit", "default", "allowed", "meaning"];
-        page.table("Parameters", Sheet::new(head).with(parameters));
+        let parameters = case
+            .parameters
+            .iter()
+            .map(|p| [p.name, p.unit, p.default, &p.domain.to_string(), p.meaning].map(str::to_owned).into());
+        page.table("Parameters", Sheet::new(["name", "unit", "default", "allowed", "meaning"]).with(parameters));
         page.heading(3, "", "Schemes");
-        let schemes = case.schemes().into_iter().map(|s| Text::code(s.to_string()));
-        page.paragraph(Text::joined(schemes, ", "));
+        page.paragraph(Text::joined(case.schemes().into_iter().map(|s| Text::code(s.to_string())), ", "));
         page.heading(3, "", "Levels");
         let level = |l: &Level| Text::code(l.name).then(format!(": cells of {} m", l.h));
         page.paragraph(Text::joined(case.levels.iter().map(level), ", "));

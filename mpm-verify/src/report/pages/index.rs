@@ -33,8 +33,7 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
         _ => Text::mark("✗", "fail").then(" ").then(Text::link("something failed", "#failed")),
     };
     let about = "The locking-free material point method against exact solutions, independent references and published results. ";
-    let first = counts.lines().next().unwrap_or_default();
-    page.paragraph(Text::from(about).then(result).then_below(first));
+    page.paragraph(Text::from(about).then(result).then_below(counts.lines().next().unwrap_or_default()));
     schemes(&mut page);
     of_map(&mut page, summary, speed);
     price(&mut page, summary, speed, picture.map(|p| Shown::of(&p, out)));
@@ -127,8 +126,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         });
         let sum = |of: fn(&Record) -> f64| study.records.iter().fold(0.0, |sum, r| sum + of(r));
         let pairs = format!("{:.2}", 1e-9 * sum(|r| r.work.particle_node_pairs as f64));
-        let cpu = format!("{:.1}", sum(|r| r.time.cpu_s));
-        let numbers = counts.into_iter().chain([pairs.into(), cpu.into()]);
+        let numbers = counts.into_iter().chain([pairs.into(), format!("{:.1}", sum(|r| r.time.cpu_s)).into()]);
         let first = [Cell::head(name), thumb.unwrap_or_default().into(), best.into()];
         Ok(first.into_iter().chain(numbers.map(|n| Cell::of(n, "num"))).into())
     };
@@ -144,8 +142,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
 
 fn legend(page: &mut Document) {
     page.section("legend", "Legend");
-    let outcomes = OUTCOMES.into_iter().zip(prose("outcomes"));
-    page.list(outcomes.map(|(outcome, says)| Text::badge(outcome).then(says)));
+    page.list(OUTCOMES.into_iter().zip(prose("outcomes")).map(|(outcome, says)| Text::badge(outcome).then(says)));
     prose("schemes").for_each(|text| page.paragraph(text));
     page.list(prose("names"));
 }
@@ -153,16 +150,13 @@ fn legend(page: &mut Document) {
 fn failed(page: &mut Document, summary: &Summary) {
     page.section("failed", "Failures");
     let broken = verdicts::broken(summary).map(|(study, record, message)| {
-        let mark = Text::marked("**⚠ Broke down:** ");
-        mark.then(run(study, Some(record))).then(format!(": {message}"))
+        Text::marked("**⚠ Broke down:** ").then(run(study, Some(record))).then(format!(": {message}"))
     });
     let broken: Vec<Text> = broken.collect();
     let failures = |which: fn(&Verdict) -> bool| {
-        let failed = summary.verdicts().filter(move |(.., v)| which(v));
-        failed.map(|(study, record, v)| (Some(run(study, record)), v))
+        summary.verdicts().filter(move |(.., v)| which(v)).map(|(study, record, v)| (Some(run(study, record)), v))
     };
-    let failures = failures(Verdict::misses_the_truth).chain(failures(Verdict::drifts));
-    let table = verdicts::table(failures);
+    let table = verdicts::table(failures(Verdict::misses_the_truth).chain(failures(Verdict::drifts)));
     if broken.is_empty() && table.rows.is_empty() {
         page.paragraph("Nothing.");
     }

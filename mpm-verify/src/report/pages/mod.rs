@@ -25,8 +25,7 @@ pub(super) fn write(summary: &Summary, speed: &Speed, picture: Option<Picture>, 
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
         let page = case::page(case, study, &faults, out);
-        let links = vec![up.clone(), docs(study)];
-        page.write_page(&of(case.title), links, &out.join(file_of(study)))?;
+        page.write_page(&of(case.title), vec![up.clone(), docs(study)], &out.join(file_of(study)))?;
     }
     Ok(())
 }
@@ -50,8 +49,7 @@ fn docs(study: &CaseStudy) -> Text {
 /// A file of the repository, with a link where a server builds the report.
 fn in_repository(name: &str, file: &str, commit: &str) -> Text {
     let variable = |name| env::var(name).ok();
-    let place = variable("GITHUB_SERVER_URL").zip(variable("GITHUB_REPOSITORY"));
-    match place {
+    match variable("GITHUB_SERVER_URL").zip(variable("GITHUB_REPOSITORY")) {
         Some((server, repository)) => Text::link(name, format!("{server}/{repository}/blob/{commit}/{file}")),
         None => Text::code(name),
     }
