@@ -24,8 +24,7 @@ const VERTEX: u8 = 1;
 const BLOCK: usize = 1 << 20;
 
 /// Writes particles as vertices: the columns `x`, `y`, `z` (those that exist) are the points, all others are point data:
-/// vectors and symmetric tensors whole, under their name, scalars with their unit. A number beyond single precision becomes
-/// infinite.
+/// vectors and symmetric tensors whole, under plain names. A number beyond single precision becomes infinite.
 ///
 /// # Errors
 /// The file can't be written.
@@ -64,20 +63,17 @@ fn grid(columns: &[Column]) -> io::Result<Vec<u8>> {
     let place = |k: usize| axes.map(|axis| axis.map_or(0.0, |c| c.values[k]));
     let counted = |from: usize| (from..from + n).flat_map(|k| (k as u64).to_le_bytes()).collect::<Vec<u8>>();
     let mut numbers = Vec::new();
-    let points = array(("Float32", "position (m)", 3), &singles((0..n).flat_map(place)), &mut numbers)?;
+    let points = array(("Float32", "position", 3), &singles((0..n).flat_map(place)), &mut numbers)?;
     let mut cells = array(("Int64", "connectivity", 1), &counted(0), &mut numbers)?;
     cells += &array(("Int64", "offsets", 1), &counted(1), &mut numbers)?;
     cells += &array(("UInt8", "types", 1), &vec![VERTEX; n], &mut numbers)?;
     let mut fields = String::new();
     for c in columns.iter().filter(|c| !AXES.contains(&c.name)) {
-        let (name, parts) = match whole(columns, c, axes.iter().flatten().count()) {
-            Some((name, parts)) => (name.to_owned(), parts),
-            None => (format!("{} ({})", c.name, c.unit), vec![Some(c)]),
-        };
+        let (name, parts) = whole(columns, c, axes.iter().flatten().count()).unwrap_or((c.name, vec![Some(c)]));
         // The first component stands for all.
         if parts.iter().flatten().next().is_some_and(|first| first.name == c.name) {
             let values = (0..n).flat_map(|k| parts.iter().map(move |part| part.map_or(0.0, |c| c.values[k])));
-            fields += &array(("Float32", &name, parts.len()), &singles(values), &mut numbers)?;
+            fields += &array(("Float32", name, parts.len()), &singles(values), &mut numbers)?;
         }
     }
     let compressor = " header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\"";
@@ -210,9 +206,9 @@ mod tests {
         let arrays = arrays(&document);
         let expected: [(&str, &[f64]); 5] = [
             ("connectivity", &[0.0, 1.0]),
-            ("mean_stress (Pa)", &[-1.0, 0.25]),
+            ("mean_stress", &[-1.0, 0.25]),
             ("offsets", &[1.0, 2.0]),
-            ("position (m)", &[0.0, 2.0, 0.0, 1.0, 3.5, 0.0]),
+            ("position", &[0.0, 2.0, 0.0, 1.0, 3.5, 0.0]),
             ("types", &[1.0, 1.0]),
         ];
         let found = arrays.iter().map(|(name, values)| (&**name, &**values));
@@ -232,7 +228,7 @@ mod tests {
         let arrays = arrays(&grid(&columns).unwrap());
         assert_eq!(arrays["u"], [1.0, 2.0, 0.0]);
         assert_eq!(arrays["stress"], [4.0, 5.0, 6.0, 7.0, 0.0, 0.0]);
-        assert_eq!((&*arrays["force_x (m)"], &*arrays["effective_stress_yy (Pa)"]), (&[3.0][..], &[8.0][..]));
+        assert_eq!((&*arrays["force_x"], &*arrays["effective_stress_yy"]), (&[3.0][..], &[8.0][..]));
     }
 
     #[test]
@@ -242,7 +238,7 @@ mod tests {
             let values: Vec<f64> = (0..count).map(|k| (k % 1000) as f64 - 0.5).collect();
             let document = grid(&[column("x", "m", values.clone())]).unwrap();
             let arrays = arrays(&document);
-            let x = arrays["position (m)"].iter().step_by(3);
+            let x = arrays["position"].iter().step_by(3);
             assert!(x.eq(&values), "{count}");
             assert_eq!(arrays["offsets"].len(), count);
             // Those in three dimensions are compressed to less than a number each.

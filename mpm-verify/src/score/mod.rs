@@ -203,7 +203,12 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
             }
             Some(kind @ ("vtk" | "vtp" | "vtu")) if part == Part::Particles => {
                 let read = if kind == "vtk" { legacy::table } else { vtu::table };
-                read(&read_file(&path, TABLE)?).map_err(|said| Error::file(&path, said))?
+                let table = read(&read_file(&path, TABLE)?).map_err(|said| Error::file(&path, said))?;
+                // Arrays for ParaView have plain names, without units.
+                let known = foreign.columns();
+                let head = |name: &str| known.iter().find(|a| a.part == part && a.name == name).map(Asked::header);
+                let column = |(name, values): (&str, &[f64])| (head(name).unwrap_or(name.to_owned()), values.to_vec());
+                Table::of_columns(table.iter().map(column).collect())
             }
             _ => {
                 let allowed = match part {
