@@ -118,6 +118,8 @@ pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     declared: Vec<Prescribed>,
     /// Amplitudes of the constraints in the step.
     amplitudes: Vec<f64>,
+    /// Cells by which the nodes that they hold have moved on.
+    shifts: Vec<[f64; D]>,
     /// The mean stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
     force_mean: Vec<f64>,
     /// Between G2P and the law.
@@ -142,7 +144,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
         self.apply_contacts()?;
         self.average_stress();
         self.particles_to_grid();
-        self.move_constraints();
+        self.move_constraints()?;
         self.update_grid();
         self.meet();
         self.grid_to_particles()?;

@@ -57,12 +57,19 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             let ranges = field.bodies.iter().map(|body| self.scene.bodies.each[*body].range());
             field.reach = Reach::of(&self.lattice, ranges.map(|range| &p.position[range]), &p.half_size);
             field.nodes.fill(NodalState::default());
-            let within = self.declared.iter().filter(|c| field.reach.contains(c.node));
-            field.prescribed.clear();
-            field.prescribed.extend(within);
             for (body, slabs) in field.bodies.iter().zip(&field.slabs) {
                 self.spaces[*body].find_reach(p, slabs);
             }
+        }
+        self.find_prescribed();
+    }
+
+    /// Finds, among all prescribed velocities, those of nodes that particles see.
+    pub(super) fn find_prescribed(&mut self) {
+        for field in &mut self.fields {
+            let within = self.declared.iter().filter(|c| field.reach.contains(c.node));
+            field.prescribed.clear();
+            field.prescribed.extend(within);
         }
     }
 }

@@ -18,8 +18,14 @@ use crate::stage::ForceFilter;
 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
-    pub(super) fn move_constraints(&mut self) {
+    pub(super) fn move_constraints(&mut self) -> Result<(), Error> {
         let middle = self.ledger.time + 0.5 * self.settings.dt;
+        let shifts: Vec<_> = self.scene.constraints.iter().map(|c| c.shift(&self.scene.grid, middle)).collect();
+        if shifts != self.shifts {
+            self.shifts = shifts;
+            self.declare_constraints(middle)?;
+            self.find_prescribed();
+        }
         let now = self.scene.constraints.iter().map(|c| c.amplitude(middle));
         let held = self.amplitudes.iter_mut().zip(&mut self.ledger.reactions);
         for ((held, reaction), amplitude) in held.zip(now) {
@@ -33,6 +39,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                 p.force = (node.change + self.gravity * node.mass()).as_array()[p.axis];
             }
         }
+        Ok(())
     }
 
     /// Forces on particles; of what accelerates all material alike, its share in the nodes' update.

@@ -15,7 +15,7 @@ use crate::projection::space;
 use crate::reach::Reach;
 use crate::room::Room;
 use crate::scene::Scene;
-use crate::stage::{Prescribed, require_held};
+use crate::stage::{Prescribed, holder, require_held};
 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// A solver of `scene` with `settings` at time zero.
@@ -72,6 +72,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             spaces: lengths.iter().map(|_| space::<D, S, B>(scene.grid, settings.wall, onto)).collect(),
             declared: Vec::new(),
             amplitudes: vec![0.0; scene.constraints.len()],
+            shifts: vec![[0.0; D]; scene.constraints.len()],
             force_mean: Vec::new(),
             deformation,
             chunk_sums: vec![ChunkSums::default(); lengths.iter().map(|n| n.div_ceil(CHUNK)).sum()],
@@ -87,34 +88,33 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         };
         solver.check_positions()?;
         solver.attach_contacts()?;
-        solver.declare_constraints();
-        require_held(solver.scene.constraints.len(), solver.declared.iter().map(|held| held.by))?;
+        solver.declare_constraints(0.0)?;
         solver.sort();
         solver.keep_gaps_open(0.0)?;
         Ok(solver)
     }
 
-    fn declare_constraints(&mut self) {
+    /// Declares what constraints hold at `time` (s).
+    pub(super) fn declare_constraints(&mut self, time: f64) -> Result<(), Error> {
         let (lattice, scene) = (&self.lattice, &self.scene);
         let declared = &mut self.declared;
+        declared.clear();
         lattice.for_each_node(|node, index| {
             let position = lattice.position(index);
             for axis in 0..D {
-                let first = scene.constraints.iter().enumerate().find_map(|(by, c)| {
-                    let full_velocity = c.prescribe(&scene.grid, &position, axis)?;
-                    Some(Prescribed {
-                        node,
-                        axis,
-                        velocity: full_velocity,
-                        full_velocity,
-                        bound: c.bound(),
-                        force: 0.0,
-                        by,
-                    })
-                });
-                declared.extend(first);
+                let first = holder(&scene.constraints, &scene.grid, &position, (axis, time));
+                declared.extend(first.map(|(by, full_velocity)| Prescribed {
+                    node,
+                    axis,
+                    velocity: full_velocity,
+                    full_velocity,
+                    bound: scene.constraints[by].bound(),
+                    force: 0.0,
+                    by,
+                }));
             }
         });
+        require_held(scene.constraints.len(), declared.iter().map(|held| held.by))
     }
 
     fn check_positions(&mut self) -> Result<(), Error> {

@@ -3,7 +3,7 @@
 use super::interpolation::Interpolation;
 use crate::error::{Error, require};
 use crate::scene::Scene;
-use crate::stage::{Bound, Constraint, require_held};
+use crate::stage::{Bound, Constraint, holder, require_held};
 
 /// A component of a node that a constraint holds.
 #[derive(Debug, Clone, Copy)]
@@ -26,21 +26,20 @@ pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> R
     )
 }
 
-/// Constraint of every component of every node: the first of the scene's constraints that holds it.
+/// Constraint of every component of every node at `time` (s): the first of the scene's constraints that holds it.
 ///
 /// # Errors
 /// A constraint holds nothing.
 pub(crate) fn components<const D: usize>(
     functions: &dyn Interpolation<D>,
     scene: &Scene<D>,
+    time: f64,
 ) -> Result<Vec<[Option<Held>; D]>, Error> {
     let mut held = vec![[None; D]; functions.len()];
     functions.for_each_node(&mut |node, position| {
         for (axis, held) in held[node].iter_mut().enumerate() {
-            *held = scene.constraints.iter().enumerate().find_map(|(by, c)| {
-                let velocity = c.prescribe(&scene.grid, &position, axis)?;
-                Some(Held { velocity, by })
-            });
+            let first = holder(&scene.constraints, &scene.grid, &position, (axis, time));
+            *held = first.map(|(by, velocity)| Held { velocity, by });
         }
     });
     require_held(scene.constraints.len(), held.as_flattened().iter().flatten().map(|held| held.by))?;

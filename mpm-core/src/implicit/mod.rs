@@ -108,6 +108,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     /// A load step, in parts if the whole of it finds no equilibrium.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.settings.dt);
+        self.held = held::components(self.functions.as_ref(), &self.scene, start + 0.5 * dt)?;
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
             self.ledger.time = start + (done + size) * dt;

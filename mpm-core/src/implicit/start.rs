@@ -93,7 +93,7 @@ impl<const D: usize> Solver<D> {
         }
         let mut solver = Self {
             originals: functions.originals(),
-            held: held::components(functions.as_ref(), &scene)?,
+            held: held::components(functions.as_ref(), &scene, 0.0)?,
             moduli,
             direct: Direct::new(contact::is_symmetric(&scene)),
             advance: Vec::new(),

@@ -77,6 +77,7 @@ impl<const D: usize> Simulation<D> for Solver<D> {
     /// A step, in parts if the whole of it finds no solution.
     fn step(&mut self) -> Result<(), Error> {
         let (start, dt) = (self.ledger.time, self.duration());
+        self.held = held::components(self.solid_space.functions.as_ref(), &self.scene, start + 0.5 * dt)?;
         let parts = in_parts(self.settings.most_halvings, |done, size| {
             self.part(size * dt)?;
             self.ledger.time = start + (done + size) * dt;

@@ -106,7 +106,7 @@ impl<const D: usize> Solver<D> {
         for face in &water.faces {
             face.check(scene.bodies.particles.len())?;
         }
-        let held = held::components(solid_space.functions.as_ref(), &scene)?;
+        let held = held::components(solid_space.functions.as_ref(), &scene, 0.0)?;
         let tied = ties(&water.plates, solid_space.functions.as_ref(), &held)?;
         scene.check_half_size()?;
         let particles = &mut scene.bodies.particles;

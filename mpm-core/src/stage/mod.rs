@@ -21,7 +21,7 @@ pub use kinetic_damping::KineticDamping;
 pub use load::{BodyForce, DeadForce, ForceField, Gravity};
 pub use local_damping::LocalDamping;
 pub use rest::{Observation, RestCriterion};
-pub use rigid_nodes::RigidNodes;
+pub use rigid_nodes::{MovingNodes, RigidNodes};
 pub use wall::{End, Wall, WallKind};
 
 use crate::error::{Error, require};
@@ -110,12 +110,32 @@ pub trait Constraint<const D: usize>: Memory + Send {
         1.0
     }
 
+    /// Whole cells along every axis by which the nodes that it holds at time zero have moved on at `time` (s).
+    fn shift(&self, _grid: &crate::Grid<D>, _time: f64) -> [f64; D] {
+        [0.0; D]
+    }
+
     /// The same constraint seen from `frame`.
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>>;
 }
 
 /// Quantity in the error of a scene with a constraint that holds nothing.
 pub const HOLDS_NOTHING: &str = "place in the scene's list, from 0, of a constraint that holds no node of its own";
+
+/// The first constraint of a list that holds the node at `position` (m) along `axis` at `time` (s), by its place, and the
+/// velocity (m/s) at the amplitude one.
+pub(crate) fn holder<const D: usize>(
+    constraints: &[Box<dyn Constraint<D>>],
+    grid: &crate::Grid<D>,
+    position: &[f64; D],
+    (axis, time): (usize, f64),
+) -> Option<(usize, f64)> {
+    constraints.iter().enumerate().find_map(|(by, c)| {
+        let shift = c.shift(grid, time);
+        let origin = std::array::from_fn(|a| position[a] - shift[a] * grid.h);
+        Some((by, c.prescribe(grid, &origin, axis)?))
+    })
+}
 
 /// Refuses one of `count` constraints that holds nothing, those that do so being at the places `by`.
 pub(crate) fn require_held(count: usize, by: impl Iterator<Item = usize>) -> Result<(), Error> {

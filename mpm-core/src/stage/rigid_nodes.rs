@@ -1,12 +1,12 @@
 //! A rigid body as prescribed velocities of the nodes that it covers.
 
-use super::{Constraint, smooth_rise};
+use super::{Constraint, smooth_rise, smooth_stroke};
 use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::memory::Memoryless;
 
 /// The nodes in a box move with a rigid body; the velocity starts smoothly. The box stays where it is: this is
-/// contact for strokes that are small against a cell. Material that it touches sticks to it along the axes
+/// contact for strokes that are small against a cell, [`MovingNodes`] that for others. Material sticks to it along the axes
 /// that it holds, and cannot leave it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RigidNodes<const D: usize> {
@@ -37,12 +37,50 @@ impl<const D: usize> Constraint<D> for RigidNodes<D> {
     }
 
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
+        Box::new(self.rigid_from(frame))
+    }
+}
+
+impl<const D: usize> RigidNodes<D> {
+    fn rigid_from(&self, frame: &Frame<D>) -> Self {
         let mut velocity = [None; D];
         for (axis, v) in self.velocity.iter().enumerate() {
             let (axis, sign) = frame.axis(axis);
             velocity[axis] = v.map(|v| frame.scale(0, 1) * sign * v);
         }
-        Box::new(Self { extent: frame.extent(&self.extent), velocity, ramp: self.ramp })
+        Self { extent: frame.extent(&self.extent), velocity, ramp: self.ramp }
+    }
+}
+
+/// The nodes in a box that moves with its velocity: those of its start, moved by the whole number of cells that is nearest
+/// to its stroke.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MovingNodes<const D: usize> {
+    /// Nodes before it moves.
+    pub nodes: RigidNodes<D>,
+    /// Stroke at time zero (m).
+    pub from: [f64; D],
+}
+
+impl<const D: usize> Memoryless for MovingNodes<D> {}
+
+impl<const D: usize> Constraint<D> for MovingNodes<D> {
+    fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
+        self.nodes.prescribe(grid, position, axis)
+    }
+
+    fn amplitude(&self, time: f64) -> f64 {
+        Constraint::<D>::amplitude(&self.nodes, time)
+    }
+
+    fn shift(&self, grid: &Grid<D>, time: f64) -> [f64; D] {
+        let rise = smooth_stroke(time, self.nodes.ramp);
+        let stroke = |a: usize| self.from[a] + self.nodes.velocity[a].map_or(0.0, |v| v * rise);
+        std::array::from_fn(|a| (stroke(a) / grid.h).round())
+    }
+
+    fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {
+        Box::new(Self { nodes: self.nodes.rigid_from(frame), from: frame.vector(&self.from, frame.scale(0, 1)) })
     }
 }
 

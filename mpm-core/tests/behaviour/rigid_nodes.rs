@@ -3,7 +3,7 @@
 use crate::scenes::{block, law, scene};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::Solver;
-use mpm_core::stage::{End, RigidNodes, Wall, WallKind};
+use mpm_core::stage::{Constraint, End, MovingNodes, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Basis, Grid, Part, Side, Simulation};
 
 const H: f64 = 0.5;
@@ -113,5 +113,15 @@ fn the_ramp_is_followed() {
     for sunk in sunk {
         let share = sunk / stroke * 24.0 / 23.0;
         assert!((share - 1.0).abs() < 0.03, "{share}");
+    }
+}
+
+#[test]
+fn a_box_that_moves_goes_on_to_the_nodes_nearest_to_where_it_went() {
+    let grid = Grid::new(0.5, [Axis::open(0.0, 8); 2]).unwrap();
+    let nodes = RigidNodes { extent: [[1.0, 1.2], [0.0, 4.0]], velocity: [Some(-1.0), None], ramp: 0.0 };
+    for (time, cells) in [(0.0, 0.0), (0.24, 0.0), (0.26, -1.0), (0.74, -1.0), (0.76, -2.0)] {
+        let shift = |from: f64| MovingNodes { nodes, from: [from, 0.0] }.shift(&grid, time);
+        assert_eq!((shift(0.0), shift(1.0)), ([cells, 0.0], [cells + 2.0, 0.0]), "{time}");
     }
 }

@@ -32,7 +32,8 @@ const THROWN: (f64, f64, f64) = (2.0, 0.2, 5.3);
 const THROWS: &str =
     "a grain is thrown off, likely as averages of averages let the true volumes drift: docs/landslide.md";
 const FLOWS: &str = "ground whose weight is tens of times its strength flows off the end of the floor, as water would";
-const LEAKS: &str = "`wall-line` splines do not interpolate at the floor, and a particle creeps through it: docs/method.md";
+const LEAKS: &str =
+    "`wall-line` splines do not interpolate at the floor, and a particle creeps through it: docs/method.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
 /// γ H over the undrained shear strength from which ground flows like water: as in the case `excavation`.

@@ -22,10 +22,7 @@ macro_rules! numbers {
 
             fn try_from(value: f64) -> Result<Self, String> {
                 let fits: fn(f64) -> bool = $fits;
-                match fits(value) {
-                    true => Ok(Self(value as $of)),
-                    false => Err(format!("{value} where {} is allowed", $allowed)),
-                }
+                if fits(value) { Ok(Self(value as $of)) } else { Err(format!("{value} where {} is allowed", $allowed)) }
             }
         })*
     };
@@ -86,338 +83,229 @@ impl TryFrom<String> for Name {
     }
 }
 
-/// A scene file.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Form {
-    /// [`FORMAT`].
-    pub(super) format: Line<u32>,
-    pub(super) title: String,
-    pub(super) grid: Line<GridForm>,
-    pub(super) body: Line<BodyForm>,
-    pub(super) law: Line<LawForm>,
-    #[serde(default)]
-    pub(super) bodies: Vec<Line<BodyForm>>,
-    pub(super) water: Option<Line<WaterForm>>,
-    #[serde(default)]
-    pub(super) loads: Vec<Line<LoadForm>>,
-    #[serde(default)]
-    pub(super) supports: Vec<Line<SupportForm>>,
-    #[serde(default)]
-    pub(super) contacts: Vec<Line<ContactForm>>,
-    pub(super) solver: Line<SolverForm>,
-    pub(super) phases: Vec<Line<PhaseForm>>,
-    pub(super) output: Line<OutputForm>,
+/// Tables of keys, none of which may be unknown.
+macro_rules! tables {
+    ($($(#[$of:meta])* $name:ident { $($(#[$key:meta])* $field:ident: $value:ty,)* })*) => {
+        $($(#[$of])*
+        #[derive(Debug, Deserialize)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct $name {
+            $($(#[$key])* pub(super) $field: $value,)*
+        })*
+    };
 }
 
-/// The grid. It has as many axes as `cells` has numbers.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct GridForm {
-    pub(super) cell_size_m: Positive,
-    pub(super) lower_m: Vec<Finite>,
-    pub(super) cells: Vec<Cells>,
-    pub(super) ends: Vec<EndsForm>,
+/// Kinds, by their names, each with its keys.
+macro_rules! kinds {
+    ($($(#[$of:meta])* $name:ident { $($kinds:tt)* })*) => {
+        $($(#[$of])*
+        #[derive(Debug, Deserialize)]
+        #[serde(rename_all = "kebab-case", deny_unknown_fields)]
+        pub(super) enum $name {
+            $($kinds)*
+        })*
+    };
 }
 
-/// Conditions at the two ends of an axis, the lower one first.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum EndsForm {
-    Walls,
-    WallOpen,
-    OpenWall,
-    Open,
-    Periodic,
-}
+tables! {
+    /// A scene file, of the format [`FORMAT`].
+    Form {
+        format: Line<u32>, title: String,
+        grid: Line<GridForm>, body: Line<BodyForm>, law: Line<LawForm>,
+        #[serde(default)] bodies: Vec<Line<BodyForm>>,
+        water: Option<Line<WaterForm>>,
+        #[serde(default)] loads: Vec<Line<LoadForm>>,
+        #[serde(default)] supports: Vec<Line<SupportForm>>,
+        #[serde(default)] contacts: Vec<Line<ContactForm>>,
+        solver: Line<SolverForm>, phases: Vec<Line<PhaseForm>>, output: Line<OutputForm>,
+    }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum AxisForm {
-    X,
-    Y,
-    Z,
-}
+    /// The grid. It has as many axes as `cells` has numbers.
+    GridForm {
+        cell_size_m: Positive, lower_m: Vec<Finite>, cells: Vec<Cells>, ends: Vec<EndsForm>,
+    }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum EndForm {
-    Lo,
-    Hi,
-}
+    /// A box whose ends are included, without bounds along axes that are not named.
+    #[derive(Clone, Copy, Default)]
+    Region {
+        x_m: Option<Ends>, y_m: Option<Ends>, z_m: Option<Ends>,
+    }
 
-/// A box whose ends are included, without bounds along axes that are not named.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct Region {
-    pub(super) x_m: Option<Ends>,
-    pub(super) y_m: Option<Ends>,
-    pub(super) z_m: Option<Ends>,
-}
+    /// A body. The first one has `particles_per_direction`, which holds for all; the others have a name and a law here.
+    BodyForm {
+        name: Option<Name>, density_kg_m3: Positive, particles_per_direction: Option<PerDirection>,
+        shapes: Vec<Line<ShapeForm>>,
+        velocity_m_s: Option<Vec<Finite>>,
+        law: Option<Line<LawForm>>,
+        /// Whether the scheme's remedy averages over it: true.
+        remedy: Option<bool>,
+        /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
+        friction: Option<NotNegative>,
+        /// Horizontal over vertical stress at the start, of ground under its weight; none of a body without stress.
+        k0: Option<NotNegative>,
+        /// Of its pores, where they are not those of `water`.
+        porosity: Option<Share>, conductivity: Option<ConductivityForm>,
+    }
 
-/// A body. The first one has `particles_per_direction`, which holds for all; the others have a name and a law here.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct BodyForm {
-    pub(super) name: Option<Name>,
-    pub(super) density_kg_m3: Positive,
-    pub(super) particles_per_direction: Option<PerDirection>,
-    pub(super) shapes: Vec<Line<ShapeForm>>,
-    pub(super) velocity_m_s: Option<Vec<Finite>>,
-    pub(super) law: Option<Line<LawForm>>,
-    /// Whether the scheme's remedy averages over it: true.
-    pub(super) remedy: Option<bool>,
-    /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
-    pub(super) friction: Option<NotNegative>,
-    /// Horizontal over vertical stress at the start, of ground under its weight; none of a body without stress.
-    pub(super) k0: Option<NotNegative>,
-    /// Of its pores, where they are not those of `water`.
-    pub(super) porosity: Option<Share>,
-    pub(super) conductivity: Option<ConductivityForm>,
-}
+    WaterForm {
+        porosity: Share,
+        conductivity: ConductivityForm,
+        /// Pressure nodes held at zero.
+        drained: Option<Region>,
+        #[serde(default)] faces: Vec<Line<FaceForm>>,
+    }
 
-/// A part of the body. Particles stand at (k + ½) of their distance from zero, with whole numbers k.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum ShapeForm {
-    /// Seeded from one corner to the opposite one.
-    Box { from_m: Vec<Finite>, to_m: Vec<Finite> },
-    /// In the plane of x and y; in three dimensions between two z.
-    Polygon { corners_m: Vec<Vec<Finite>>, z_m: Option<Ends> },
-    /// A disc, or a ball.
-    Disc { centre_m: Vec<Finite>, radius_m: Positive },
-    /// From a CSV file beside the scene: places, and volumes and velocities if it has them.
-    Particles { file: String },
-}
+    /// Sides of particle domains, of the particles in a region, under a load or drained.
+    FaceForm {
+        axis: AxisForm, end: EndForm,
+        #[serde(default)] on: Region,
+        traction_pa: Option<Vec<Finite>>,
+        #[serde(default)] rise_s: NotNegative,
+        drain_penalty_m_pa_s: Option<Positive>,
+    }
 
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum LawForm {
-    NeoHookean {
-        young_modulus_pa: Finite,
-        poisson_ratio: Finite,
-    },
-    Hencky {
-        young_modulus_pa: Finite,
-        poisson_ratio: Finite,
-    },
-    HenckyJ2 {
-        young_modulus_pa: Finite,
-        poisson_ratio: Finite,
-        strength: StrengthForm,
-    },
-    DruckerPrager {
-        young_modulus_pa: Finite,
-        poisson_ratio: Finite,
-        cohesion_pa: Finite,
-        friction_deg: Finite,
-        /// Zero.
-        #[serde(default)]
-        dilation_deg: NotNegative,
-        /// Plane strain.
-        #[serde(default)]
-        matched: MatchedForm,
-    },
-    NewtonianFluid {
-        bulk_modulus_pa: Finite,
-        viscosity_pa_s: Finite,
-    },
-    /// The porosity is that of `water`.
-    ImprovedHencky {
-        bulk_parameter: Finite,
-        shear_modulus_pa: Finite,
-    },
-    CamClay {
-        bulk_parameter: Finite,
-        shear_modulus_pa: Finite,
-        critical_ratio: Finite,
-        plastic_compressibility: Finite,
-        preconsolidation_pa: Finite,
-        initial_pressure_pa: Finite,
-        alpha: Option<Finite>,
-        gamma: Option<Finite>,
-    },
-}
+    /// A rigid face with a barrier in front: at `lo` a floor of what lies above it, at `hi` what presses from above.
+    ContactForm {
+        name: Name, axis: AxisForm, end: EndForm, at_m: Finite,
+        #[serde(default)] within: Region,
+        velocity_m_s: Option<Vec<Finite>>,
+        #[serde(default)] rise_s: NotNegative,
+        stiffness_n_m: Positive, reach_m: Positive,
+        friction: Option<FrictionForm>,
+        #[serde(default)] phases: Vec<String>,
+    }
 
-/// Where a cone has the limit loads of Mohr and Coulomb's law.
-#[derive(Debug, Clone, Copy, Default, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum MatchedForm {
-    #[default]
-    PlaneStrain,
-    Compression,
-    Extension,
-}
+    /// Coulomb's friction; without a coefficient what touches never slips.
+    #[derive(Clone, Copy)]
+    FrictionForm {
+        coefficient: Option<NotNegative>, stiffness_n_m: Positive,
+    }
 
-/// A strength of von Mises' law: of undrained shear in plane strain, or as ‖s‖.
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum StrengthForm {
-    Undrained { shear_strength_pa: Finite },
-    Perfect { norm_pa: Finite },
-    Softening { peak_pa: Finite, residual_pa: Finite, eta: Finite },
-}
+    /// The scheme and its settings; each kind of solver has its own.
+    SolverForm {
+        scheme: String, time_step_s: Option<Positive>, cfl: Option<Courant>,
+        flip: Option<Share>, pic_rate_per_s: Option<NotNegative>, kinetic_damping: Option<bool>, walls: Option<WallsForm>,
+        tolerance: Option<Positive>, ghost_penalty: Option<NotNegative>, lumped: Option<Share>,
+        ghost_pressure: Option<NotNegative>, projection_per_pa: Option<Positive>,
+    }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct WaterForm {
-    pub(super) porosity: Share,
-    pub(super) conductivity: ConductivityForm,
-    /// Pressure nodes held at zero.
-    pub(super) drained: Option<Region>,
-    #[serde(default)]
-    pub(super) faces: Vec<Line<FaceForm>>,
-}
-
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum ConductivityForm {
-    Constant {
-        m2_pa_s: Positive,
-    },
-    /// c n³/(1 − n)².
-    KozenyCarman {
-        m2_pa_s: Positive,
-    },
-}
-
-/// Sides of particle domains, of the particles in a region, under a load or drained.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FaceForm {
-    pub(super) axis: AxisForm,
-    pub(super) end: EndForm,
-    #[serde(default)]
-    pub(super) on: Region,
-    pub(super) traction_pa: Option<Vec<Finite>>,
-    #[serde(default)]
-    pub(super) rise_s: NotNegative,
-    pub(super) drain_penalty_m_pa_s: Option<Positive>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum LoadForm {
-    Gravity {
-        acceleration_m_s2: Vec<Finite>,
-        #[serde(default)]
-        rise_s: NotNegative,
-        #[serde(default)]
-        phases: Vec<String>,
-    },
-    /// A force shared by the particles that begin in a region; per metre of depth in plane strain.
-    Force {
-        total_n: Vec<Finite>,
-        on: Region,
-        #[serde(default)]
-        rise_s: NotNegative,
-        #[serde(default)]
-        phases: Vec<String>,
-    },
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub(super) enum SupportForm {
-    Wall {
+    /// A part of the run. Its time begins at zero; the body continues from the end of the phase before.
+    PhaseForm {
         name: Name,
-        axis: AxisForm,
-        end: EndForm,
-        kind: WallForm,
-        #[serde(default)]
-        phases: Vec<String>,
-    },
-    /// Nodes in a region that move at the given speeds (m/s), and freely along the axes that are not named.
-    Nodes {
-        name: Name,
-        within: Region,
-        velocity_m_s: BTreeMap<AxisForm, Finite>,
-        #[serde(default)]
-        rise_s: NotNegative,
-        #[serde(default)]
-        phases: Vec<String>,
-    },
+        duration_s: Positive,
+        /// Explicit runs only.
+        local_damping: Option<Share>,
+        /// In place of the scene's, of the same kind: a strength that is reduced.
+        law: Option<LawForm>,
+    }
+
+    OutputForm {
+        row_s: Positive,
+        snapshot_rows: Option<Rows>,
+    }
 }
 
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum WallForm {
-    Fixed,
-    Roller,
-    Separable,
-}
+kinds! {
+    /// Conditions at the two ends of an axis, the lower one first.
+    #[derive(Clone, Copy)]
+    EndsForm { Walls, WallOpen, OpenWall, Open, Periodic }
 
-/// A rigid face with a barrier in front: at `lo` a floor of what lies above it, at `hi` what presses from above.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct ContactForm {
-    pub(super) name: Name,
-    pub(super) axis: AxisForm,
-    pub(super) end: EndForm,
-    pub(super) at_m: Finite,
-    #[serde(default)]
-    pub(super) within: Region,
-    pub(super) velocity_m_s: Option<Vec<Finite>>,
-    #[serde(default)]
-    pub(super) rise_s: NotNegative,
-    pub(super) stiffness_n_m: Positive,
-    pub(super) reach_m: Positive,
-    pub(super) friction: Option<FrictionForm>,
-    #[serde(default)]
-    pub(super) phases: Vec<String>,
-}
+    #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+    AxisForm { X, Y, Z }
 
-/// Coulomb's friction; without a coefficient what touches never slips.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct FrictionForm {
-    pub(super) coefficient: Option<NotNegative>,
-    pub(super) stiffness_n_m: Positive,
-}
+    #[derive(Clone, Copy)]
+    EndForm { Lo, Hi }
 
-/// The scheme and its settings; each kind of solver has its own.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SolverForm {
-    pub(super) scheme: String,
-    pub(super) time_step_s: Option<Positive>,
-    pub(super) cfl: Option<Courant>,
-    pub(super) flip: Option<Share>,
-    pub(super) pic_rate_per_s: Option<NotNegative>,
-    pub(super) kinetic_damping: Option<bool>,
-    pub(super) walls: Option<WallsForm>,
-    pub(super) tolerance: Option<Positive>,
-    pub(super) ghost_penalty: Option<NotNegative>,
-    pub(super) lumped: Option<Share>,
-    pub(super) ghost_pressure: Option<NotNegative>,
-    pub(super) projection_per_pa: Option<Positive>,
-}
+    #[derive(Clone, Copy)]
+    WallForm { Fixed, Roller, Separable }
 
-/// How B-splines meet walls.
-#[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub(super) enum WallsForm {
-    OpenKnot,
-    WallLine,
-}
+    /// How B-splines meet walls.
+    #[derive(Clone, Copy)]
+    WallsForm { OpenKnot, WallLine }
 
-/// A part of the run. Its time begins at zero; the body continues from the end of the phase before.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct PhaseForm {
-    pub(super) name: Name,
-    pub(super) duration_s: Positive,
-    /// Explicit runs only.
-    pub(super) local_damping: Option<Share>,
-    /// In place of the scene's, of the same kind: a strength that is reduced.
-    pub(super) law: Option<LawForm>,
-}
+    /// A part of the body. Particles stand at (k + ½) of their distance from zero, with whole numbers k.
+    ShapeForm {
+        /// Seeded from one corner to the opposite one.
+        Box { from_m: Vec<Finite>, to_m: Vec<Finite> },
+        /// In the plane of x and y; in three dimensions between two z.
+        Polygon { corners_m: Vec<Vec<Finite>>, z_m: Option<Ends> },
+        /// A disc, or a ball.
+        Disc { centre_m: Vec<Finite>, radius_m: Positive },
+        /// From a CSV file beside the scene: places, and volumes and velocities if it has them.
+        Particles { file: String },
+    }
 
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct OutputForm {
-    /// Time between two rows of the series.
-    pub(super) row_s: Positive,
-    /// Rows between two snapshots; none without.
-    pub(super) snapshot_rows: Option<Rows>,
+    /// Where a cone has the limit loads of Mohr and Coulomb's law.
+    #[derive(Clone, Copy, Default)]
+    MatchedForm { #[default] PlaneStrain, Compression, Extension }
+
+    LawForm {
+        NeoHookean { young_modulus_pa: Finite, poisson_ratio: Finite },
+        Hencky { young_modulus_pa: Finite, poisson_ratio: Finite },
+        HenckyJ2 { young_modulus_pa: Finite, poisson_ratio: Finite, strength: StrengthForm },
+        DruckerPrager {
+            young_modulus_pa: Finite,
+            poisson_ratio: Finite,
+            cohesion_pa: Finite,
+            friction_deg: Finite,
+            /// Zero.
+            #[serde(default)]
+            dilation_deg: NotNegative,
+            /// Plane strain.
+            #[serde(default)]
+            matched: MatchedForm,
+        },
+        NewtonianFluid { bulk_modulus_pa: Finite, viscosity_pa_s: Finite },
+        /// The porosity is that of `water`.
+        ImprovedHencky { bulk_parameter: Finite, shear_modulus_pa: Finite },
+        CamClay {
+            bulk_parameter: Finite, shear_modulus_pa: Finite,
+            critical_ratio: Finite, plastic_compressibility: Finite,
+            preconsolidation_pa: Finite, initial_pressure_pa: Finite,
+            alpha: Option<Finite>, gamma: Option<Finite>,
+        },
+    }
+
+    /// A strength of von Mises' law: of undrained shear in plane strain, or as ‖s‖.
+    StrengthForm {
+        Undrained { shear_strength_pa: Finite },
+        Perfect { norm_pa: Finite },
+        Softening { peak_pa: Finite, residual_pa: Finite, eta: Finite },
+    }
+
+    /// A number, or its product with n³/(1 − n)².
+    #[derive(Clone, Copy)]
+    ConductivityForm {
+        Constant { m2_pa_s: Positive },
+        KozenyCarman { m2_pa_s: Positive },
+    }
+
+    LoadForm {
+        Gravity {
+            acceleration_m_s2: Vec<Finite>,
+            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+        },
+        /// A force shared by the particles that begin in a region; per metre of depth in plane strain.
+        Force {
+            total_n: Vec<Finite>,
+            on: Region,
+            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+        },
+    }
+
+    SupportForm {
+        Wall {
+            name: Name, axis: AxisForm, end: EndForm, kind: WallForm,
+            #[serde(default)] phases: Vec<String>,
+        },
+        /// Nodes in a region that move at the given speeds (m/s), and freely along the axes that are not named.
+        Nodes {
+            name: Name,
+            within: Region,
+            velocity_m_s: BTreeMap<AxisForm, Finite>,
+            /// Whether the region moves with them.
+            #[serde(default)] moves: bool,
+            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+        },
+    }
 }

@@ -39,23 +39,16 @@ pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw,
         LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => NewtonianFluid::new(k.0, mu.0)?.into(),
         LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => soaked(k.0, g.0)?.into(),
         LawForm::CamClay {
-            bulk_parameter,
-            shear_modulus_pa,
-            critical_ratio,
-            plastic_compressibility,
-            preconsolidation_pa,
-            initial_pressure_pa,
+            bulk_parameter: k,
+            shear_modulus_pa: g,
+            critical_ratio: m,
+            plastic_compressibility: c,
+            preconsolidation_pa: yields,
+            initial_pressure_pa: initial,
             alpha,
             gamma,
         } => {
-            let elasticity = soaked(bulk_parameter.0, shear_modulus_pa.0)?;
-            let clay = CamClay::new(
-                elasticity,
-                critical_ratio.0,
-                plastic_compressibility.0,
-                preconsolidation_pa.0,
-                initial_pressure_pa.0,
-            )?;
+            let clay = CamClay::new(soaked(k.0, g.0)?, m.0, c.0, yields.0, initial.0)?;
             let [alpha, gamma] = [alpha, gamma].map(|shape| shape.map_or(1.0, |x| x.0));
             clay.shaped(alpha, gamma)?.into()
         }

@@ -141,8 +141,5 @@ pub(super) fn phases(
             damping: given.local_damping.map_or(0.0, |share| share.0),
         });
     }
-    match all.is_empty() {
-        true => Err(Error::file(&source.path, "phases: none, where 1 or more are allowed")),
-        false => Ok(all),
-    }
+    if all.is_empty() { Err(Error::file(&source.path, "phases: none, where 1 or more are allowed")) } else { Ok(all) }
 }

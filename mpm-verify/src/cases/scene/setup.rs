@@ -16,7 +16,8 @@ use mpm_core::explicit;
 use mpm_core::implicit::{self, GHOST, TimeRule};
 use mpm_core::poro::{self, Face, PressureSpace};
 use mpm_core::stage::{
-    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, RigidNodes, smooth_rise,
+    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, MovingNodes, RigidNodes, smooth_rise,
+    smooth_stroke,
 };
 
 /// Share of the lumped mass with the midpoint rule: with the consistent mass alone a body that flies is singular.
@@ -110,15 +111,11 @@ impl<const D: usize> Setup<D> {
         for face in faces {
             let form = face.get_ref();
             own_axis::<D, _>(source, face, form.axis)?;
-            match (&form.traction_pa, form.drain_penalty_m_pa_s) {
-                (Some(traction), None) => {
-                    vector::<D, _>(source, face, "traction_pa", traction)?;
-                }
-                (None, Some(_)) => {}
-                _ => {
-                    let said = "a face has either traction_pa or drain_penalty_m_pa_s";
-                    return Err(source.at(face, said));
-                }
+            if form.traction_pa.is_some() == form.drain_penalty_m_pa_s.is_some() {
+                return Err(source.at(face, "a face has either traction_pa or drain_penalty_m_pa_s"));
+            }
+            if let Some(traction) = &form.traction_pa {
+                vector::<D, _>(source, face, "traction_pa", traction)?;
             }
         }
         Ok(())
@@ -127,7 +124,7 @@ impl<const D: usize> Setup<D> {
     /// Refuses a wall where the grid has none, and nodes that move away from their region, which stays: by more than half a
     /// cell along an axis where it ends.
     fn check_support(&self, source: &Source, support: &Line<SupportForm>) -> Result<(), Error> {
-        let (within, velocity_m_s, rise_s, phases) = match support.get_ref() {
+        let (within, velocity_m_s, moves) = match support.get_ref() {
             SupportForm::Wall { kind: WallForm::Separable, .. } if self.scheme.transfer() == TransferName::Musl => {
                 let said = "musl gains energy at a separable wall, up to a fifth in an impact: a roller or another transfer is allowed";
                 return Err(source.at(support, said));
@@ -138,21 +135,37 @@ impl<const D: usize> Setup<D> {
                 let said = "a wall at an end of the grid that has none";
                 return if there { Ok(()) } else { Err(source.at(support, said)) };
             }
-            SupportForm::Nodes { within, velocity_m_s, rise_s, phases, .. } => (within, velocity_m_s, rise_s, phases),
+            SupportForm::Nodes { within, velocity_m_s, moves, .. } => (within, velocity_m_s, *moves),
         };
-        let acting = self.phases.iter().filter(|phase| acts(phases, &phase.name)).map(Phase::duration);
-        let time: f64 = acting.map(|duration| duration - 0.5 * rise_s.0.min(duration)).sum();
-        for (axis, velocity) in velocity_m_s {
-            let (stroke, most) = ((velocity.0 * time).abs(), 0.5 * self.grid.h);
-            if stroke > most * (1.0 + ROUNDING) && ends::<D>(within)[*axis as usize].iter().any(|end| end.is_finite()) {
+        if moves && velocity_m_s.values().all(|velocity| velocity.0 == 0.0) {
+            return Err(source.at(support, "moves = true with no velocity_m_s but zero: a region that moves has one"));
+        }
+        for (axis, stroke) in self.strokes(support.get_ref(), self.phases.len()).into_iter().enumerate() {
+            let (stroke, most) = (stroke.abs(), 0.5 * self.grid.h);
+            let ends = ends::<D>(within)[axis].iter().any(|end| end.is_finite());
+            let (axis, periodic) = (["x", "y", "z"][axis], self.grid.axes[axis].is_periodic());
+            if ends && stroke > most * (1.0 + ROUNDING) && (!moves || periodic) {
                 let said = format!(
-                    "nodes move {stroke} m along {axis:?} where their region stays: at most half a cell is allowed, {most} m, \
-                     or ends -inf and inf along that axis; [[contacts]] move farther"
+                    "nodes move {stroke} m along {axis} where their region stays: at most half a cell is allowed, {most} m, \
+                     or ends -inf and inf along that axis, or moves = true unless it is periodic"
                 );
                 return Err(source.at(support, said));
             }
         }
         Ok(())
+    }
+
+    /// Strokes (m) of a support, along every axis, in the first phases of the scene.
+    pub(super) fn strokes(&self, support: &SupportForm, count: usize) -> [f64; D] {
+        let SupportForm::Nodes { velocity_m_s, rise_s, phases, .. } = support else { return [0.0; D] };
+        let time = self.stroke_time(rise_s.0, phases, count);
+        speeds(velocity_m_s).map(|speed| speed.map_or(0.0, |speed| speed * time))
+    }
+
+    /// Stroke over full velocity (s) of what moves in some phases, in the first `count` of the scene.
+    pub(super) fn stroke_time(&self, rise: f64, phases: &[String], count: usize) -> f64 {
+        let acting = self.phases.iter().take(count).filter(|phase| acts(phases, &phase.name)).map(Phase::duration);
+        acting.map(|duration| smooth_stroke(duration, rise)).sum()
     }
 
     /// Particles per cell.
@@ -223,7 +236,7 @@ impl<const D: usize> Setup<D> {
             grid: self.grid,
             loads: self.loads(&phase.name, &bodies.particles)?,
             bodies,
-            constraints: self.constraints(&phase.name),
+            constraints: self.constraints(phase),
             contacts: self.contacts(&phase.name)?,
         })
     }
@@ -256,26 +269,22 @@ impl<const D: usize> Setup<D> {
         Ok(all)
     }
 
-    fn constraints(&self, phase: &str) -> Vec<Box<dyn Constraint<D>>> {
+    fn constraints(&self, phase: &Phase) -> Vec<Box<dyn Constraint<D>>> {
         let mut all: Vec<Box<dyn Constraint<D>>> = Vec::new();
         for support in &self.form.supports {
             match support.get_ref() {
-                SupportForm::Wall { axis, end, kind, phases, .. } if acts(phases, phase) => all.push(Box::new(Wall {
-                    axis: *axis as usize,
-                    end: end_of(*end),
-                    kind: match kind {
-                        WallForm::Fixed => WallKind::Fixed,
-                        WallForm::Roller => WallKind::Roller,
-                        WallForm::Separable => WallKind::Separable,
-                    },
-                })),
-                SupportForm::Nodes { within, velocity_m_s, rise_s, phases, .. } if acts(phases, phase) => {
-                    let axes = [AxisForm::X, AxisForm::Y, AxisForm::Z];
-                    all.push(Box::new(RigidNodes {
-                        extent: ends(within),
-                        velocity: std::array::from_fn(|a| velocity_m_s.get(&axes[a]).map(|v| v.0)),
-                        ramp: rise_s.0,
-                    }));
+                SupportForm::Wall { axis, end, kind, phases, .. } if acts(phases, &phase.name) => {
+                    all.push(Box::new(Wall {
+                        axis: *axis as usize,
+                        end: end_of(*end),
+                        kind: [WallKind::Fixed, WallKind::Roller, WallKind::Separable][*kind as usize],
+                    }))
+                }
+                SupportForm::Nodes { within, velocity_m_s, moves, rise_s, phases, .. } if acts(phases, &phase.name) => {
+                    let nodes = RigidNodes { extent: ends(within), velocity: speeds(velocity_m_s), ramp: rise_s.0 };
+                    let before = self.phases.iter().take_while(|other| other.name != phase.name).count();
+                    let from = self.strokes(support.get_ref(), before);
+                    all.push(if *moves { Box::new(MovingNodes { nodes, from }) } else { Box::new(nodes) });
                 }
                 _ => {}
             }
@@ -396,8 +405,14 @@ fn contact<const D: usize>(form: &ContactForm) -> Result<RigidContact<D>, mpm_co
     })
 }
 
+/// Speeds (m/s) along the axes that are named.
+fn speeds<const D: usize>(named: &BTreeMap<AxisForm, Finite>) -> [Option<f64>; D] {
+    let axes = [AxisForm::X, AxisForm::Y, AxisForm::Z];
+    std::array::from_fn(|a| named.get(&axes[a]).map(|speed| speed.0))
+}
+
 /// Components of a vector whose length [`Setup::check`] has looked at.
-fn components<const D: usize>(given: &[Finite]) -> [f64; D] {
+pub(super) fn components<const D: usize>(given: &[Finite]) -> [f64; D] {
     std::array::from_fn(|a| given.get(a).map_or(0.0, |x| x.0))
 }
 
@@ -407,10 +422,7 @@ pub(super) fn acts(phases: &[String], phase: &str) -> bool {
 }
 
 fn end_of(form: EndForm) -> End {
-    match form {
-        EndForm::Lo => End::Lo,
-        EndForm::Hi => End::Hi,
-    }
+    [End::Lo, End::Hi][form as usize]
 }
 
 /// Particles along a side of a cell.
@@ -419,13 +431,8 @@ fn per_direction(form: &Form) -> u32 {
 }
 
 fn own_axis<const D: usize, T>(source: &Source, at: &Line<T>, axis: AxisForm) -> Result<(), Error> {
-    match (axis as usize) < D {
-        true => Ok(()),
-        false => {
-            let said = format!("axis {axis:?} where the grid has {D}").to_lowercase();
-            Err(source.at(at, said))
-        }
-    }
+    let said = || format!("axis {axis:?} where the grid has {D}").to_lowercase();
+    if (axis as usize) < D { Ok(()) } else { Err(source.at(at, said())) }
 }
 
 fn grid<const D: usize>(source: &Source, form: &Form) -> Result<Grid<D>, Error> {
