@@ -1,6 +1,7 @@
 //! Definition of a verification case.
 
 use crate::check::Check;
+use crate::draw::Line;
 use crate::error::Error;
 use crate::gallery::Gallery;
 use crate::job::Job;
@@ -118,6 +119,10 @@ pub struct Case {
     pub watched: &'static [&'static str],
     /// The particle field of its first run that is kept among the goldens.
     pub field: Option<FieldView>,
+    /// Of a scene: title of pictures of its end.
+    pub heading: String,
+    /// Of a scene: lines that pictures show around its particles.
+    pub around: Vec<Line>,
     /// The geometry.
     pub sketch: Sketch,
     /// Relative cost of a run, to start the longest first.
@@ -182,6 +187,8 @@ impl Case {
             sweeps: Vec::new(),
             watched: &[],
             field: None,
+            heading: String::new(),
+            around: Vec::new(),
             sketch: Sketch::default(),
             cost: Box::new(|_| 1.0),
             ladder: &[],

@@ -90,7 +90,7 @@ impl Fields {
     /// At most two in a row, by label and range of the colour scale.
     pub(super) fn new(panels: Vec<FieldPanel>, label: &str, range: (f64, f64)) -> Self {
         let (title, label) = (String::new(), label.to_owned());
-        Self(FieldFigure { title, panels, columns: 2, range, label, window: None })
+        Self(FieldFigure { title, panels, columns: 2, range, label, ..FieldFigure::default() })
     }
 
     /// With a title above the panels.

@@ -158,7 +158,7 @@ impl Scene {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let scene = SceneFile::read(&self.file, 1.0, self.making.memory())?;
         if self.making.told.progress() {
-            say(format!("{}\n", one_line(&scene.title)))?;
+            say(format!("{}\n", scene.case.title))?;
             for line in &scene.made {
                 say(format!("{line}\n"))?;
             }

@@ -1,7 +1,7 @@
 //! Panels of particle fields in the plane.
 
 use super::axes::{Axes, Axis, THIN, extent};
-use super::colour::{INK, colour_of};
+use super::colour::{INK, Rgb, colour_of};
 use super::page::{Frame, Page, Point, clipped, fine, ink, pixels};
 use super::png_file::{save_animation, write_small_png};
 use super::sheet::{Bar, Sheet};
@@ -11,6 +11,17 @@ use plotters::element::Rectangle;
 use plotters::style::Color;
 use rayon::prelude::*;
 use std::path::Path;
+
+/// Width of a domain's edge in its own colour, so that rounding leaves no gap between neighbours, and of a support.
+const SEAM: f64 = 0.7;
+const THICK: f64 = 5.0;
+/// Colour of bodies at the start.
+const GREY: Rgb = 0x8C8C8C;
+
+/// Half the sides of a domain, along two axes.
+type Sides = [Point; 2];
+/// A line through points, and whether it is a support's; a body's at the start is thin and grey.
+pub type Line = (Vec<(f64, f64)>, bool);
 
 /// One snapshot of a particle field.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,7 +52,7 @@ impl FieldPanel {
 ///
 /// The colours diverge from a neutral zero when both signs take a good part of the range (the
 /// smaller end at least a fifth of the larger), otherwise they are sequential.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct FieldFigure {
     /// Title above the panels; may be empty.
     pub title: String,
@@ -55,13 +66,17 @@ pub struct FieldFigure {
     pub label: String,
     /// Ranges of abscissa and ordinate that are shown; without, all particles and outlines are.
     pub window: Option<((f64, f64), (f64, f64))>,
+    /// Half the sides of the domains of a single panel's particles, along two axes; without, they are squares.
+    pub domains: Vec<[(f64, f64); 2]>,
+    /// Lines around the particles.
+    pub around: Vec<Line>,
 }
 
 impl FieldFigure {
     /// One panel, by label and range of the colour scale; all of it is shown.
     #[must_use]
     pub fn single(panel: FieldPanel, label: String, range: (f64, f64)) -> Self {
-        Self { title: String::new(), panels: vec![panel], columns: 1, range, label, window: None }
+        Self { panels: vec![panel], columns: 1, range, label, ..Self::default() }
     }
 }
 
@@ -121,7 +136,12 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
     pixels(path, bar.size(&sheet), coarser, |page| {
         for (k, panel) in panels.iter().enumerate() {
             let frame = sheet.frame(k);
-            draw_particles(page, &axes, frame, panel, bar.range());
+            draw_particles(page, &axes, frame, panel, (&figure.domains, bar.range()));
+            for (line, is_support) in &figure.around {
+                let (width, colour) = if *is_support { (THICK, INK) } else { (THIN, GREY) };
+                let line: Vec<Point> = line.iter().map(|point| axes.place(frame, *point)).collect();
+                clipped(&line, frame).iter().for_each(|part| page.line(part, width, colour, &[]));
+            }
             axes.draw(page, frame, false);
             let outline = panel.outline.iter().chain(panel.outline.first());
             let outline = outline.filter(|p| finite(p)).map(|p| axes.place(frame, *p));
@@ -136,10 +156,17 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
 }
 
 /// Draws particles as far as they lie in the frame.
-fn draw_particles(page: &mut Page, axes: &Axes, frame: Frame, panel: &FieldPanel, range: Point) {
+fn draw_particles(page: &mut Page, axes: &Axes, frame: Frame, panel: &FieldPanel, (domains, range): (&[Sides], Point)) {
     let (half, [left, top, right, bottom]) = (panel.size / 2.0, frame.map(fine));
     let particles = panel.points.iter().zip(&panel.values);
-    for (at, value) in particles.filter(|(at, _)| finite(at)) {
+    for (k, (at, value)) in particles.enumerate().filter(|(_, (at, _))| finite(at)) {
+        if let Some([u, v]) = domains.get(k) {
+            let corner = |(i, j)| axes.place(frame, (at.0 + i * u.0 + j * v.0, at.1 + i * u.1 + j * v.1));
+            let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)].map(corner);
+            page.area(&corners, colour_of(*value, range), 1.0);
+            page.line(&corners, SEAM, colour_of(*value, range), &[]);
+            continue;
+        }
         // A little larger, so that rounding leaves no gap between neighbours.
         let corner = |side: f64| {
             let (x, y) = axes.place(frame, (at.0 + side * half, at.1 - side * half));

@@ -6,6 +6,7 @@
 mod axes;
 mod chart;
 mod colour;
+mod domains;
 mod field;
 mod legend;
 mod marker;
@@ -22,7 +23,8 @@ pub(crate) mod triptych;
 
 pub use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges_of_columns};
 pub use colour::signed;
-pub use field::{FieldFigure, FieldPanel, animate_fields, draw_fields};
+pub use domains::domains;
+pub use field::{FieldFigure, FieldPanel, Line, animate_fields, draw_fields};
 pub use marker::Marker;
 pub use plot::draw_charts;
 pub use png_file::write_small_png;
@@ -120,7 +122,7 @@ mod tests {
             columns: 3,
             range: (0.0, 1.0),
             label: "stress (Pa)".into(),
-            window: None,
+            ..FieldFigure::default()
         }
     }
 

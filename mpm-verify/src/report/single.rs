@@ -3,7 +3,8 @@
 use super::prelude::*;
 use super::words::number;
 use super::{draw_own, owning};
-use crate::draw::{FieldFigure, FieldPanel, draw_charts, draw_fields};
+use crate::draw::{FieldFigure, FieldPanel, domains, draw_charts, draw_fields};
+use crate::record::Status;
 use crate::run::series;
 use crate::table::Table;
 
@@ -41,24 +42,36 @@ fn fields(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec
     let flows = bulk(table.column("plastic_strain")).is_some();
     let value = view.map_or(if flows { "plastic_strain" } else { "mean_stress" }, |view| view.value);
     let label = table.iter().map(|(header, _)| header).filter(|h| h.split(" (").next() == Some(value)).last();
-    let mut shown: Vec<(&str, String, Vec<f64>)> = Vec::new();
-    shown.extend(label.map(|label| ("particles", label.to_owned(), table.column(value).to_vec())));
+    let own = |label: &str| ("particles", label.to_owned(), table.column(value).to_vec());
+    let mut shown: Vec<_> = label.map(own).into_iter().collect();
     let moved = table.points("displacement_x", "displacement_y");
+    let (d, places) = (&record.discretisation, table.points("x", "y"));
+    let size = d.h / f64::from(d.ppc).sqrt();
+    let from: Vec<_> = places.iter().zip(&moved).map(|(at, way)| (at.0 - way.0, at.1 - way.1)).collect();
+    let domains = domains(&from, &places[..from.len()], table.column("body"), size);
     if !moved.is_empty() {
         let ways = moved.into_iter().map(|(x, y)| x.hypot(y)).collect();
         shown.push(("displacement", "displacement (m)".to_owned(), ways));
         let mean = table.column("mean_stress").to_vec();
         shown.extend((value != "mean_stress").then(|| ("mean-stress", "mean stress (Pa)".to_owned(), mean)));
     }
-    let d = &record.discretisation;
     let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
+    // What stands around the particles is known where it ends.
+    let (heading, around) = match record.status {
+        Status::Ok => (case.heading.clone(), case.around.clone()),
+        Status::Failed => Default::default(),
+    };
     let mut pictures = Vec::new();
     for (name, label, values) in shown {
         let Some(range) = bulk(&values) else { continue };
-        let (points, size) = (table.points("x", "y"), d.h / f64::from(d.ppc).sqrt());
-        let panel = FieldPanel { title: title.clone(), points, values, size, outline: Vec::new() };
-        let window = view.map(|view| view.window.into());
-        let figure = FieldFigure { window, ..FieldFigure::single(panel, label.replace('_', " "), range) };
+        let panel = FieldPanel { title: title.clone(), points: places.clone(), values, size, outline: Vec::new() };
+        let figure = FieldFigure {
+            title: heading.clone(),
+            window: view.map(|view| view.window.into()),
+            domains: domains.clone(),
+            around: around.clone(),
+            ..FieldFigure::single(panel, label.replace('_', " "), range)
+        };
         let file = format!("{}/{name}.png", record.case);
         draw_fields(&out.join(&file), &figure)?;
         pictures.push(Picture { file, caption: format!("{}: {name} at the end.", record.folder()) });

@@ -70,10 +70,7 @@ pub(super) struct Array {
 impl Array {
     /// Whether it becomes a column, or those of places.
     pub(super) fn is_read(&self) -> bool {
-        match self.of_points {
-            true => self.components == 3,
-            false => self.components == 1 || self.kind_of_parts().is_some(),
-        }
+        if self.of_points { self.components == 3 } else { self.components == 1 || self.kind_of_parts().is_some() }
     }
 
     /// Columns of a vector or tensor that is known by its name, with its unit or without.

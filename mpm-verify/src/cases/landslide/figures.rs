@@ -287,6 +287,7 @@ fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fi
         range: field.range,
         label: field.label.to_owned(),
         window: Some(WINDOW),
+        ..FieldFigure::default()
     }
 }
 

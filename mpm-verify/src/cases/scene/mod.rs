@@ -3,6 +3,7 @@
 //!
 //! The format: `docs/reference/scene-files.md`.
 
+mod around;
 mod body;
 mod fault;
 mod form;
@@ -22,9 +23,9 @@ mod tests;
 use crate::case::Tier;
 use crate::cases::prelude::*;
 use crate::check::On;
+use crate::error::one_line;
 use crate::files::{Mark, read_text};
 use crate::problem::Driver;
-use crate::size::Size;
 use crate::verdict::Kind;
 use fault::Source;
 use form::{FORMAT, Form};
@@ -39,12 +40,10 @@ const ROUNDING: f64 = 1e-9;
 
 /// A scene that a file describes.
 pub struct SceneFile {
-    /// It, as a case with one run.
+    /// It, as a case with one run, whose title is that of the file.
     pub case: Case,
     /// Its run.
     pub spec: RunSpec,
-    /// The title in the file.
-    pub title: String,
     /// Bodies and steps made from the file, a line each: a wrong unit shows here.
     pub made: Vec<String>,
     /// Height of the body, along the last axis (m).
@@ -65,46 +64,21 @@ impl SceneFile {
             let said = format!("format {format} where {FORMAT} is read");
             return Err(source.at(&form.format, said));
         }
-        let title = form.title.clone();
-        let dimension = form.grid.get_ref().cells.len();
-        let h = form.grid.get_ref().cell_size_m.0;
-        let open = match dimension {
-            1 => open::<1>,
-            2 => open::<2>,
-            3 => open::<3>,
-            _ => {
+        match form.grid.get_ref().cells.len() {
+            1 => open::<1>(source, form),
+            2 => open::<2>(source, form),
+            3 => open::<3>(source, form),
+            dimension => {
                 let said = format!("cells has {dimension} numbers where 1 to 3 are allowed");
-                return Err(source.at(&form.grid, said));
+                Err(source.at(&form.grid, said))
             }
-        };
-        let (found, begin) = open(source, form)?;
-        let scheme = found.scheme;
-        let level = Level { name: Box::leak(format!("{:08x}", found.mark).into_boxed_str()), h };
-        Ok(Self {
-            case: Case { size: Some(found.size), ..case(dimension, level, scheme, found.mass, begin) },
-            spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false },
-            title,
-            made: found.made,
-            height: found.height,
-        })
+        }
     }
-}
-
-/// Result of building a scene.
-struct Found {
-    scheme: Scheme,
-    /// Mass (kg, kg/m in plane strain).
-    mass: f64,
-    /// A checksum of file and particles, by which a checkpoint tells its scene from others.
-    mark: u32,
-    made: Vec<String>,
-    height: f64,
-    size: Size,
 }
 
 /// Builds every phase once, so that what is wrong in the last one is said before the first; and what begins a run, the
 /// first time by what is built here.
-fn open<const D: usize>(source: Source, form: Form) -> Result<(Found, Begin), Error> {
+fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> {
     let setup = Setup::<D>::new(&source, form)?;
     let (mut mass, mut size) = (0.0, setup.size);
     for phase in &setup.phases {
@@ -117,32 +91,41 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<(Found, Begin), Er
     let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened());
     all.extend(numbers.flat_map(|x| x.to_le_bytes()));
     all.extend(source.weaker.to_le_bytes());
-    let (made, height) = (setup.made(), setup.reach()[D - 1]);
-    let found = Found { scheme: setup.scheme, mass, mark: Mark::of(&all).checksum, made, height, size };
+    // A checksum of file and particles, by which a checkpoint tells its scene from others.
+    let level = Level { name: lasting(format!("{:08x}", Mark::of(&all).checksum)), h: setup.grid.h };
+    let (scheme, made, height, around) = (setup.scheme, setup.made(), setup.reach()[D - 1], setup.around());
+    let duration: f64 = setup.form.phases.iter().map(|phase| phase.get_ref().duration_s.0).sum();
+    let title = lasting(one_line(&setup.form.title));
+    let last = setup.phases.last().map_or("", |phase| &phase.name);
+    let heading = format!("{title}: {last}, t = {} s", (1e6 * duration).round() / 1e6);
     let built = Mutex::new(Some(setup));
-    let begin = move |spec: &RunSpec, values: &Parameters| {
+    let begin: Begin = Box::new(move |spec: &RunSpec, values: &Parameters| {
         let made = match built.lock().ok().and_then(|mut built| built.take()) {
             Some(built) => built,
             None => Setup::<D>::new(&source, source.form()?)?,
         };
         let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
         Ok(Box::new(Driver::new(course)?) as Box<dyn Job>)
-    };
-    Ok((found, Box::new(begin)))
-}
-
-/// The case of a scene in `dimension` dimensions whose bodies have a `mass` (kg).
-fn case(dimension: usize, level: Level, scheme: Scheme, mass: f64, begin: Begin) -> Case {
+    });
     let why = "particles carry their mass: a sum of it rounds";
     let kept = move |r: &Record| vec![Finding::within(MASS, r.metric(MASS), mass, ROUNDING * mass, why)];
     let (statement, on) = ("The mass stays what it was.", On::Run(Box::new(kept)));
-    Case {
+    let case = Case {
         description: "What a scene file describes.",
         limits: vec!["Nothing is known of the answer, so nothing is judged."],
         levels: vec![level],
         plan: vec![Family { tier: Tier::Long, levels: vec![level], schemes: vec![scheme], set: Vec::new() }],
         checks: vec![Check { name: "mass", kind: Kind::Bookkeeping, statement, on }],
         watched: &["displacement_max", "kinetic_energy"],
-        ..Case::begun_by("scene", "A scene of one's own", &watch::metrics_in(dimension), Vec::new(), begin)
-    }
+        size: Some(size),
+        heading,
+        around,
+        ..Case::begun_by("scene", title, &watch::metrics_in(D), Vec::new(), begin)
+    };
+    Ok(SceneFile { case, spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false }, made, height })
+}
+
+/// A text that lives as long as the program, which reads few scenes.
+fn lasting(text: String) -> &'static str {
+    Box::leak(text.into_boxed_str())
 }

@@ -242,3 +242,13 @@ fn a_strength_is_divided_in_every_phase_where_there_is_one() {
     let refused = SceneFile::read(&shipped("cook.toml"), 2.0, None).err().unwrap().to_string();
     assert!(refused.contains("law") && refused.contains("no strength"), "{refused}");
 }
+
+#[test]
+fn pictures_tell_title_phase_and_time_and_show_bodies_and_supports() {
+    let scene = SceneFile::read(&shipped("slope.toml"), 1.0, None).unwrap();
+    assert_eq!(scene.case.heading, "A bank of soft clay slides: slide, t = 4 s");
+    let (supports, bodies): (Vec<_>, Vec<_>) = scene.case.around.iter().partition(|(_, is_support)| *is_support);
+    assert_eq!(bodies[0].0.len(), 7);
+    let base = [(0.0, 0.0), (30.0, 0.0), (30.0, 0.0), (0.0, 0.0), (0.0, 0.0)];
+    assert_eq!((supports.len(), &supports[0].0[..]), (2, &base[..]));
+}

@@ -1,6 +1,7 @@
 //! Observation of a scene's run: phase by phase, row by row.
 
 use super::body::moved;
+use super::lasting;
 use super::phase::Phase;
 use super::setup::Setup as Made;
 use crate::cases::prelude::*;
@@ -79,20 +80,11 @@ impl<const D: usize> Course<D> {
             let place = |names: &[&str]| names.iter().position(|n| n == name);
             let kinds: [fn(usize) -> Part; 3] = [Part::Constraint, Part::Contact, Part::Body];
             let part = here.iter().zip(kinds).find_map(|(names, kind)| place(names).map(kind));
-            let now = part.map_or([0.0; 3], |part| {
-                let reaction = run.on(part);
-                match self.setup.scheme {
-                    Scheme::Explicit(_) => reaction.impulse,
-                    _ => reaction.force.map(|f| f * duration),
-                }
-            });
+            let on = part.map(|part| run.on(part)).unwrap_or_default();
+            let explicit = self.setup.is_explicit();
+            let now = if explicit { on.impulse } else { on.force.map(|f| f * duration) };
             let before = std::mem::replace(&mut seen.impulses[k], now);
-            let explicit = matches!(self.setup.scheme, Scheme::Explicit(_));
-            let change = |a: usize| match explicit {
-                true => (now[a] - before[a]) / duration,
-                false => now[a] / duration,
-            };
-            forces.extend((0..D).map(change));
+            forces.extend((0..D).map(|a| (now[a] - if explicit { before[a] } else { 0.0 }) / duration));
         }
         forces
     }
@@ -100,26 +92,25 @@ impl<const D: usize> Course<D> {
 
 /// Names of the columns, which live as long as the program: a scene is read once in it.
 fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) -> Vec<&'static str> {
-    let named = |name: String| -> &'static str { Box::leak(name.into_boxed_str()) };
     let [energy, force, volume] = ["J", "N", "m³"].map(|unit| per_depth(unit, D));
     let mut all = vec![
         "time (s)",
-        named(format!("kinetic_energy ({energy})")),
-        named(format!("stored_energy ({energy})")),
+        lasting(format!("kinetic_energy ({energy})")),
+        lasting(format!("stored_energy ({energy})")),
         "displacement_max (m)",
     ];
     match scheme {
         Scheme::Explicit(_) => {}
         Scheme::Implicit(_) => all.push("newton_iterations (-)"),
-        Scheme::Poro(_) => all.extend(["newton_iterations (-)", named(format!("outflow ({volume})"))]),
+        Scheme::Poro(_) => all.extend(["newton_iterations (-)", lasting(format!("outflow ({volume})"))]),
     }
     for name in parts {
         for axis in ["x", "y", "z"].into_iter().take(D) {
-            all.push(named(format!("{name}_{axis} ({force})")));
+            all.push(lasting(format!("{name}_{axis} ({force})")));
         }
     }
     for name in bodies {
-        all.extend(["x", "y", "z"].into_iter().take(D).map(|axis| named(format!("{name}_moved_{axis} (m)"))));
+        all.extend(["x", "y", "z"].into_iter().take(D).map(|axis| lasting(format!("{name}_moved_{axis} (m)"))));
     }
     all
 }
@@ -128,10 +119,7 @@ fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) ->
 fn most_moved<const D: usize>(run: &dyn Simulation<D>) -> f64 {
     let p = run.particles();
     let pairs = p.position.iter().zip(&p.reference);
-    let squares = pairs.map(|(x, from)| {
-        let off = x.iter().zip(from).map(|(x, from)| (x - from) * (x - from));
-        off.sum::<f64>()
-    });
+    let squares = pairs.map(|(x, from)| x.iter().zip(from).map(|(x, from)| (x - from) * (x - from)).sum::<f64>());
     squares.fold(0.0, f64::max).sqrt()
 }
 
@@ -238,13 +226,8 @@ impl<const D: usize> Problem<D> for Course<D> {
             columns = columns.each(name, "Pa", |_, k| of(&stress[k]));
         }
         let columns = columns.jacobian().each("volume", ["m", "m²", "m³"][D - 1], |p, k| p.volume[k]);
-        let columns = columns.each("id", "-", |p, k| f64::from(p.id[k]));
-        match self.setup.ends.len() {
-            1 => columns,
-            _ => {
-                columns.each("body", "-", |p, k| self.setup.ends.partition_point(|end| *end <= p.id[k] as usize) as f64)
-            }
-        }
+        let body = |id: u32| self.setup.ends.partition_point(|end| *end <= id as usize) as f64;
+        columns.each("id", "-", |p, k| f64::from(p.id[k])).each("body", "-", |p, k| body(p.id[k]))
     }
 
     fn metrics(&self, _: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {
