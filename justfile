@@ -55,6 +55,10 @@ keep folder:
 tables:
     cargo run --release -- tables
 
+# Damage 50,000 scene files.
+fuzz-scenes:
+    MPM_FUZZ_SCENES=50000 cargo test --release -p mpm-verify --lib scene::tests::fuzz
+
 # Break the solver on purpose and see named checks go red.
 mutants:
     cargo test --release -p mpm-verify --test mutation

@@ -4,6 +4,7 @@ use crate::parameter::Parameters;
 use std::path::PathBuf;
 
 mod bodies;
+mod fuzz;
 mod moves;
 mod pairs;
 mod soil;
