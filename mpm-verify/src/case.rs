@@ -119,9 +119,9 @@ pub struct Case {
     pub watched: &'static [&'static str],
     /// The particle field of its first run that is kept among the goldens.
     pub field: Option<FieldView>,
-    /// Of a scene: title of pictures of its end.
+    /// Title of the pictures of a scene at its end.
     pub heading: String,
-    /// Of a scene: lines that pictures show around its particles.
+    /// Lines that pictures of a scene show around its particles.
     pub around: Vec<Line>,
     /// The geometry.
     pub sketch: Sketch,

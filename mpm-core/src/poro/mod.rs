@@ -283,7 +283,7 @@ impl<const D: usize> Solver<D> {
         })
     }
 
-    /// What the ghost penalties on displacement and pressure have of their strengths at every particle: its body's
+    /// Shares of their strengths that the ghost penalties on displacement and pressure have at every particle: its body's
     /// stiffness and conductivity over the greatest. Empty of one body.
     fn shares(&self) -> [Vec<f64>; 2] {
         let bodies = &self.scene.bodies;

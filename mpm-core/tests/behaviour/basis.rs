@@ -1,4 +1,4 @@
-//! What every basis must have.
+//! Properties of every basis.
 
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
 use mpm_core::number::{EIGHT, Eight, Real};

@@ -25,7 +25,10 @@ pub fn domains(from: &[Point], at: &[Point], body: &[f64], size: f64) -> Vec<[Po
             sides => ((b.0 - a.0) / (2 * sides) as f64, (b.1 - a.1) / (2 * sides) as f64),
         }
     };
-    (0..at.len()).map(|k| [half(k, (1, 0)), half(k, (0, 1))]).collect()
+    // Where neighbours have parted along one axis alone, less than half a domain is left: a square stands for it.
+    let whole = |[u, v]: &[Point; 2]| u.0 * v.1 - u.1 * v.0 > 0.125 * size * size;
+    let square = [(0.5 * size, 0.0), (0.0, 0.5 * size)];
+    (0..at.len()).map(|k| Some([half(k, (1, 0)), half(k, (0, 1))]).filter(whole).unwrap_or(square)).collect()
 }
 
 #[cfg(test)]
@@ -43,5 +46,6 @@ mod tests {
         let (two, square) = ([(0.5, 0.5), (1.5, 0.5)], [(0.5, 0.0), (0.0, 0.5)]);
         assert_eq!(domains(&two, &[two[0], (1.9, 0.5)], &[0.0, 1.0], 1.0)[0], square);
         assert_eq!(domains(&two, &[two[0], (9.5, 0.5)], &[], 1.0)[0], square);
+        assert_eq!(domains(&two, &[two[0], (0.7, 0.5)], &[], 1.0)[0], square);
     }
 }

@@ -1,4 +1,4 @@
-//! What pictures of a scene in the plane show around its particles: the bodies at the start, and supports.
+//! Lines around the particles in pictures of a scene in the plane: the bodies at the start, and supports.
 
 use super::fault;
 use super::form::{Finite, ShapeForm, SupportForm};

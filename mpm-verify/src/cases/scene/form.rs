@@ -143,7 +143,7 @@ tables! {
         friction: Option<NotNegative>,
         /// Horizontal over vertical stress at the start, of ground under its weight; none of a body without stress.
         k0: Option<NotNegative>,
-        /// Of its pores, where they are not those of `water`.
+        /// Its own pores, where they are not those of `water`.
         porosity: Option<Share>, conductivity: Option<ConductivityForm>,
     }
 
