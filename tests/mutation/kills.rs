@@ -12,7 +12,7 @@ use std::path::Path;
 pub(crate) const FILE: &str = "mpm-verify/assets/kills.csv";
 pub(crate) const PAGE: &str = "docs/kill-matrix.md";
 
-const HEAD: &str = "fault,case,check";
+const HEAD: &str = "fault,case,checks";
 
 /// A check of a case.
 pub(crate) type Seer = (String, String);
@@ -31,9 +31,9 @@ impl Kills {
         for line in lines {
             // Names of faults may have commas.
             let mut cells = line.rsplitn(3, ',');
-            let [check, case, fault] = [(); 3].map(|()| cells.next().unwrap().to_owned());
-            let fault = fault.trim_matches('"').to_owned();
-            kills.0.entry(fault).or_default().insert((case, check));
+            let [checks, case, fault] = [(); 3].map(|()| cells.next().unwrap());
+            let seers = checks.split(';').map(|check| (case.to_owned(), check.to_owned()));
+            kills.0.entry(fault.trim_matches('"').to_owned()).or_default().extend(seers);
         }
         kills
     }
@@ -42,8 +42,10 @@ impl Kills {
     pub(crate) fn write(&self, root: &Path) {
         let mut text = format!("{HEAD}\n");
         for (fault, seers) in &self.0 {
-            for (case, check) in seers {
-                writeln!(text, "\"{fault}\",{case},{check}").unwrap();
+            let mut cases: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+            seers.iter().for_each(|(case, check)| cases.entry(case).or_default().push(check));
+            for (case, checks) in cases {
+                writeln!(text, "\"{fault}\",{case},{}", checks.join(";")).unwrap();
             }
         }
         fs::write(root.join(FILE), text).unwrap();

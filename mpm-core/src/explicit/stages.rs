@@ -20,9 +20,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
     pub(super) fn move_constraints(&mut self) -> Result<(), Error> {
         let middle = self.ledger.time + 0.5 * self.settings.dt;
-        let shifts: Vec<_> = self.scene.constraints.iter().map(|c| c.shift(&self.scene.grid, middle)).collect();
-        if shifts != self.shifts {
-            self.shifts = shifts;
+        let mut moved = false;
+        for (c, shift) in self.scene.constraints.iter().zip(&mut self.shifts) {
+            let before = std::mem::replace(shift, c.shift(&self.scene.grid, middle));
+            moved |= before != *shift;
+        }
+        if moved {
             self.declare_constraints(middle)?;
             self.find_prescribed();
         }

@@ -5,8 +5,8 @@ use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Fbar, Form, Onto};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Solver, Transfer};
-use mpm_core::stage::{BodyForce, LocalDamping};
-use mpm_core::{Axis, Basis, Grid, Simulation};
+use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
+use mpm_core::{Axis, Basis, Grid, Side, Simulation};
 
 fn bits<const D: usize, const S: usize, B: Basis<S> + 'static>(threads: usize) -> Vec<u64> {
     bits_of::<D, S, B, _>(threads, Flip::default(), Onto::Basis)
@@ -105,10 +105,11 @@ where
             v[0] += 2.0;
         }
         let mut axes = [Axis::open(0.0, 12); D];
-        axes[0] = Axis::open(0.0, 48);
+        axes[0] = Axis::bounded(0.0, 48, (Side::Wall, Side::Open));
         let grid = Grid::new(0.5, axes).unwrap();
         let (mut scene, mut settings) = scene_with(grid, particles, transfer.clone());
         settings.remedy = remedy;
+        scene = scene.constrain(Wall::new(0, End::Lo, WallKind::Roller));
         scene.loads.push(Box::new(BodyForce(Box::new(|_, _| [1e-3; D]))));
         settings.force_filters.push(Box::new(LocalDamping::new(0.1).unwrap()));
         let mut solver = Solver::<D, S, B, T>::new(scene, settings).unwrap();

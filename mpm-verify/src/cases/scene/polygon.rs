@@ -24,7 +24,7 @@ impl Polygon {
         let lowest = sides.iter().map(|[lo, _]| *lo).fold(f64::INFINITY, f64::min);
         let highest = sides.iter().map(|[_, hi]| *hi).fold(f64::NEG_INFINITY, f64::max);
         let spanned: f64 = sides.iter().map(|[lo, hi]| hi - lo).sum();
-        let count = (ENTRIES * sides.len() as f64 * (highest - lowest) / spanned).clamp(1.0, 1e6) as usize;
+        let count = ((ENTRIES * sides.len() as f64 * (highest - lowest) / spanned) as usize).clamp(1, 1_000_000);
         let height = (highest - lowest) / count as f64;
         let mut polygon = Self { corners, margin, lowest, height, rows: vec![Vec::new(); count] };
         for (side, [lo, hi]) in sides.into_iter().enumerate() {
@@ -131,6 +131,14 @@ mod tests {
         let middle = [0, 1].map(|a| 0.5 * (corners[0][a] + corners[1][a]));
         assert!(polygon.holds(middle) && polygon.holds(corners[7]));
         assert!(begun.elapsed().as_secs_f64() < 2.0, "{:?}", begun.elapsed());
+    }
+
+    #[test]
+    fn a_polygon_without_a_height_and_one_of_any_height_have_rows() {
+        for y in [0.0, 1e308] {
+            let polygon = Polygon::new(vec![[0.0, y], [1.0, y], [2.0, -y]], 1e-9);
+            assert!(!polygon.rows.is_empty() && polygon.holds([0.0, y]));
+        }
     }
 
     #[test]
