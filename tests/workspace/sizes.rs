@@ -5,14 +5,14 @@ use std::path::Path;
 
 /// Part, its folder, lines of its tests included or not, and most lines.
 const BOUNDS: [(&str, &str, bool, usize); 8] = [
-    ("the harness without tests", "mpm-verify/src", false, 45_250),
+    ("the harness without tests", "mpm-verify/src", false, 45_100),
     ("its cases without tests", "mpm-verify/src/cases", false, 25_800),
-    ("its reports without tests", "mpm-verify/src/report", false, 5_250),
+    ("its reports without tests", "mpm-verify/src/report", false, 5_100),
     ("its drawing without tests", "mpm-verify/src/draw", false, 2_600),
     ("terzaghi", "mpm-verify/src/cases/terzaghi", true, 500),
     ("the footing", "mpm-verify/src/cases/footing", true, 1_800),
     ("tests of the workspace", "tests/workspace", true, 4_750),
-    ("the core", "mpm-core/src", true, 22_100),
+    ("the core", "mpm-core/src", true, 22_050),
 ];
 /// Most lines of a source.
 const LONGEST: usize = 500;
