@@ -2,9 +2,9 @@
 //! al. (2001): bodies that slide have velocity fields of their own, which exchange momentum at nodes that two of them see.
 //!
 //! The gap g of a node is that between the domains of the particles that see it, along the shortest way between their
-//! convex hulls. Its normal n is the shortest way between the hulls of the ends of all these ways near it; where hulls
-//! overlap, n is that of the gradients of both volumes. With the relative velocity w = v_a − v_b and the reduced mass m,
-//! a step of Δt exchanges, where they would meet,
+//! convex hulls. Its normal n is the shortest way between the hulls of the ends of all these ways near it; where those
+//! overlap, its own way, and where its own hulls do, that of the gradients of both volumes. With the relative velocity
+//! w = v_a − v_b and the reduced mass m, a step of Δt exchanges, where they would meet,
 //!
 //! J = m (w·n − max(g, 0)/Δt) n + min(m |w_t|, μ J_n) w_t/|w_t|,
 //!

@@ -56,7 +56,7 @@ fn fields(case: &Case, record: &Record, folder: &Path, out: &Path) -> Result<Vec
         shown.extend((value != "mean_stress").then(|| ("mean-stress", "mean stress (Pa)".to_owned(), mean)));
     }
     let title = format!("{}, h = {} m", record.scheme().title(), number(Some(d.h)));
-    // What stands around the particles is known where it ends.
+    // Title and lines belong to the end of a run: one that broke down before has neither.
     let (heading, around) = match record.status {
         Status::Ok => (case.heading.clone(), case.around.clone()),
         Status::Failed => Default::default(),

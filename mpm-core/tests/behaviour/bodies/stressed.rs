@@ -57,7 +57,7 @@ fn every_law_begins_under_the_stress_that_is_given() {
 #[test]
 fn ground_begins_at_rest_under_its_weight() {
     let law = || DruckerPrager::new((1e4, 0.3), 1.0, [0.5, 0.0], Matched::PlaneStrain).unwrap();
-    // What all of the ground would settle by under a weight that comes on: ρ g H²/(2 M).
+    // Settlement of the ground under a weight that comes on: ρ g H²/(2 M).
     let modulus = 1e4 * 0.7 / (1.3 * 0.4);
     let settles = DENSITY * GRAVITY * TOP * TOP / (2.0 * modulus);
     let mut moved = [0.0; 2];

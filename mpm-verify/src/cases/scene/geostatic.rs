@@ -40,11 +40,15 @@ impl<const D: usize> Setup<D> {
         one.filter(|_| all.next().is_none())
     }
 
-    /// Vertical stress (Pa) at every particle: what its column weighs above its middle, over the column's area.
+    /// Vertical stress (Pa) at every particle: what its column weighs above its middle, over the column's area. None where
+    /// no body begins under one.
     pub(super) fn overburden(&self) -> Vec<f64> {
+        let stressed = self.form.all_bodies().any(|body| body.get_ref().k0.is_some());
+        let Some(gravity) = self.gravity().filter(|_| stressed) else { return Vec::new() };
+        let per_mass = gravity / self.spacing.powi(D as i32 - 1);
         let weights: Vec<f64> = (self.form.all_bodies().zip(self.ranges()))
             .flat_map(|(body, range)| range.map(|k| body.get_ref().density_kg_m3.0 * self.seeds.volumes[k]))
-            .map(|mass| mass * self.gravity().unwrap_or(0.0) / self.spacing.powi(D as i32 - 1))
+            .map(|mass| mass * per_mass)
             .collect();
         let column = |k: usize| self.seeds.places[k].map(|x| (x / self.spacing).floor() as i64);
         let mut order: Vec<usize> = (0..weights.len()).collect();
@@ -56,8 +60,9 @@ impl<const D: usize> Setup<D> {
         let mut stress = vec![0.0; weights.len()];
         let (mut above, mut last) = (0.0, None);
         for k in order {
-            let own = column(k)[..D - 1].to_vec();
-            if last.as_ref() != Some(&own) {
+            let mut own = column(k);
+            own[D - 1] = 0;
+            if last != Some(own) {
                 (above, last) = (0.0, Some(own));
             }
             stress[k] = above + 0.5 * weights[k];

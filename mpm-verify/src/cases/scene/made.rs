@@ -15,16 +15,18 @@ impl<const D: usize> Setup<D> {
     pub(super) fn bodies(&self, phase: &Phase) -> Result<Bodies<D>, mpm_core::Error> {
         let mut all: Option<Bodies<D>> = None;
         let laws = [&phase.law].into_iter().chain(&self.others);
-        let overburden = self.overburden();
+        // Later phases go on with the stress that they find.
+        let begins = self.phases.first().is_some_and(|first| first.name == phase.name);
+        let overburden = if begins { self.overburden() } else { Vec::new() };
         for ((body, law), range) in self.form.all_bodies().zip(laws).zip(self.ranges()) {
             let (body, law) = (body.get_ref(), Arc::clone(law));
-            let vertical = &overburden[range.clone()];
+            let vertical = overburden.get(range.clone()).unwrap_or_default();
             let particles = self.particles_of(body, range)?;
             let mut bodies = match all.take() {
                 None => Bodies::new(law, particles)?,
                 Some(others) => others.and(law, particles)?,
             };
-            if let Some(k0) = body.k0 {
+            if let Some(k0) = body.k0.filter(|_| begins) {
                 bodies = bodies.under(|k, _| geostatic::<D>(vertical[k], k0.0))?;
             }
             if body.remedy == Some(false) {

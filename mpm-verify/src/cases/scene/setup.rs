@@ -277,7 +277,11 @@ impl<const D: usize> Setup<D> {
                     all.push(Box::new(Wall {
                         axis: *axis as usize,
                         end: end_of(*end),
-                        kind: [WallKind::Fixed, WallKind::Roller, WallKind::Separable][*kind as usize],
+                        kind: match kind {
+                            WallForm::Fixed => WallKind::Fixed,
+                            WallForm::Roller => WallKind::Roller,
+                            WallForm::Separable => WallKind::Separable,
+                        },
                     }))
                 }
                 SupportForm::Nodes { within, velocity_m_s, moves, rise_s, phases, .. } if acts(phases, &phase.name) => {
@@ -422,7 +426,10 @@ pub(super) fn acts(phases: &[String], phase: &str) -> bool {
 }
 
 fn end_of(form: EndForm) -> End {
-    [End::Lo, End::Hi][form as usize]
+    match form {
+        EndForm::Lo => End::Lo,
+        EndForm::Hi => End::Hi,
+    }
 }
 
 /// Particles along a side of a cell.

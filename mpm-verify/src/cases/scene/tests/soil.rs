@@ -69,6 +69,14 @@ fn layers_begin_under_their_weight_and_rest() {
         let vertical = -9.81 * weight;
         assert!((yy / vertical - 1.0).abs() < 1e-9 && (xx / (k0 * vertical) - 1.0).abs() < 1e-9, "{y}: {xx} {yy}");
     }
+    // A later phase goes on with what it finds, weaker ground as well, which could not begin so.
+    let law =
+        "law.drucker-prager = { young_modulus_pa = 5e6, poisson_ratio = 0.3, cohesion_pa = 0, friction_deg = 15 }";
+    let weaker = format!("[[phases]]\nname = \"weaker\"\nduration_s = 1\n{law}\n[output]");
+    std::fs::write(&path, LEVEL.replace("[output]", &weaker)).unwrap();
+    assert!(SceneFile::read(&path, 1.0, None).is_ok());
+    std::fs::write(&path, LEVEL.replace("friction_deg = 30", "friction_deg = 15")).unwrap();
+    assert!(SceneFile::read(&path, 1.0, None).is_err());
     // In motion, by the imbalance of a cell at the surface and at the joint: (h/H)² of ρ g H²/(2 M).
     let text = LEVEL.replace("scheme = \"quasi-static-gimp-none\"\ntime_step_s = 1", EXPLICIT);
     let (rows, _) = run(&text);
