@@ -32,8 +32,7 @@ pub struct Order {
 
 impl Order {
     /// The orders between levels, as text.
-    #[must_use]
-    pub fn between(&self) -> String {
+    pub(crate) fn between(&self) -> String {
         let orders: Vec<String> = self.local.iter().map(|p| format!("{p:.2}")).collect();
         orders.join(", ").replace('-', "−")
     }
@@ -51,8 +50,7 @@ impl fmt::Display for Order {
 ///
 /// `None` for fewer than three levels, and where an error is zero, not finite or changes sign: there is
 /// no power law then.
-#[must_use]
-pub fn fit_order(points: &[(f64, f64)]) -> Option<Order> {
+pub(crate) fn fit_order(points: &[(f64, f64)]) -> Option<Order> {
     let sign = points.first()?.1.signum();
     let usable = |(h, e): &(f64, f64)| *h > 0.0 && e.is_finite() && e * sign > 0.0;
     if !points.iter().all(usable) {

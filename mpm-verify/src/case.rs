@@ -359,8 +359,7 @@ impl Case {
     }
 
     /// Verdicts on a run that has come to its end, those on its wanted quantities first.
-    #[must_use]
-    pub fn judge(&self, record: &Record) -> Vec<Verdict> {
+    pub(crate) fn judge(&self, record: &Record) -> Vec<Verdict> {
         let verdicts = self.verdicts(record).into_iter();
         let verdicts = match self.plans(record) {
             true => verdicts.collect(),

@@ -31,8 +31,7 @@ pub enum On {
 
 impl Check {
     /// Verdicts on one run.
-    #[must_use]
-    pub fn of_run(&self, record: &Record) -> Vec<Verdict> {
+    pub(crate) fn of_run(&self, record: &Record) -> Vec<Verdict> {
         match &self.on {
             On::Run(found) => self.verdicts(found(record)),
             On::Study(_) => Vec::new(),
@@ -40,8 +39,7 @@ impl Check {
     }
 
     /// Verdicts on the runs of a case together.
-    #[must_use]
-    pub fn of_study(&self, records: &[Record]) -> Vec<Verdict> {
+    pub(crate) fn of_study(&self, records: &[Record]) -> Vec<Verdict> {
         match &self.on {
             On::Run(_) => Vec::new(),
             On::Study(found) => self.verdicts(found(records)),

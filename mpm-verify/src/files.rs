@@ -43,8 +43,7 @@ impl Mark {
 }
 
 /// File of the snapshot at `time` (s) of the run in `folder`.
-#[must_use]
-pub fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
+pub(crate) fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
     folder.join(SNAPSHOTS).join(format!("{time:07.3}.csv"))
 }
 

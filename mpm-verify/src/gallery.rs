@@ -50,8 +50,7 @@ pub struct Gallery<'a> {
 
 impl<'a> Gallery<'a> {
     /// Gallery of runs whose outputs lie in `folder`, for a report in `out`.
-    #[must_use]
-    pub fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
+    pub(crate) fn new(case: &'a str, records: &'a [Record], folder: FolderOf<'a>, out: &'a Path) -> Self {
         Self { case, records, folder, out, pictures: Vec::new(), read: RefCell::default() }
     }
 
@@ -109,8 +108,7 @@ impl<'a> Gallery<'a> {
     }
 
     /// The pictures, in the order they were hung, and the tables from which they were drawn.
-    #[must_use]
-    pub fn done(self) -> (Vec<Picture>, BTreeSet<PathBuf>) {
+    pub(crate) fn done(self) -> (Vec<Picture>, BTreeSet<PathBuf>) {
         (self.pictures, self.read.into_inner())
     }
 }

@@ -36,8 +36,7 @@ macro_rules! metrics {
 pub(crate) use metrics;
 
 /// The values that a metric of this name can have, whatever the case and the run: names mean the same everywhere.
-#[must_use]
-pub fn possible(name: &str) -> RangeInclusive<f64> {
+pub(crate) fn possible(name: &str) -> RangeInclusive<f64> {
     const NEVER_NEGATIVE: [&str; 12] = [
         "_l2",
         "_linf",

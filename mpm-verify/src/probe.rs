@@ -12,8 +12,7 @@ pub struct PointProbe {
 impl PointProbe {
     /// A probe at `at` (m) over the particles whose reference position lies within `radius` (m); the
     /// positions are in seeding order. `None` if the particles there don't determine a plane.
-    #[must_use]
-    pub fn new(references: &[[f64; 2]], at: [f64; 2], radius: f64) -> Option<Self> {
+    pub(crate) fn new(references: &[[f64; 2]], at: [f64; 2], radius: f64) -> Option<Self> {
         let near: Vec<(usize, Vector3<f64>)> = references
             .iter()
             .enumerate()
@@ -34,8 +33,7 @@ impl PointProbe {
 }
 
 /// The particle nearest to `at` (m), by its place in seeding order; zero where there are none.
-#[must_use]
-pub fn nearest(references: &[[f64; 2]], at: [f64; 2]) -> usize {
+pub(crate) fn nearest(references: &[[f64; 2]], at: [f64; 2]) -> usize {
     let distance = |x: &[f64; 2]| (x[0] - at[0]).hypot(x[1] - at[1]);
     references.iter().enumerate().min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b))).map_or(0, |(id, _)| id)
 }

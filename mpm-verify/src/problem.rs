@@ -62,14 +62,12 @@ impl<const D: usize> Phase<D> {
     }
 
     /// Work so far, of all simulations.
-    #[must_use]
-    pub fn work(&self) -> WorkDone {
+    pub(crate) fn work(&self) -> WorkDone {
         WorkDone::from(self.run.work()).after(self.before)
     }
 
     /// Share of `steps` steps that the current simulation has done.
-    #[must_use]
-    pub fn share_of(&self, steps: u64) -> f64 {
+    pub(crate) fn share_of(&self, steps: u64) -> f64 {
         self.run.work().steps as f64 / steps as f64
     }
 }

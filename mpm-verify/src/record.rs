@@ -86,8 +86,7 @@ macro_rules! counts {
 
         impl WorkDone {
             /// The work of a body, this after `earlier`.
-            #[must_use]
-            pub fn after(self, earlier: Self) -> Self {
+            pub(crate) fn after(self, earlier: Self) -> Self {
                 Self {
                     $($own: self.$own,)*
                     $($sum: self.$sum + earlier.$sum,)*
@@ -141,8 +140,7 @@ pub struct Machine {
 
 impl Machine {
     /// This machine, with `threads` threads.
-    #[must_use]
-    pub fn here(threads: usize) -> Self {
+    pub(crate) fn here(threads: usize) -> Self {
         Self {
             os: std::env::consts::OS.to_owned(),
             arch: std::env::consts::ARCH.to_owned(),
@@ -213,8 +211,7 @@ pub struct Record {
 
 impl Record {
     /// A record without results, of a run by this program on a number of threads.
-    #[must_use]
-    pub fn blank(
+    pub(crate) fn blank(
         case: &str,
         spec: &RunSpec,
         parameters: &Parameters,
@@ -250,20 +247,17 @@ impl Record {
     }
 
     /// The basis.
-    #[must_use]
-    pub fn basis(&self) -> BasisName {
+    pub(crate) fn basis(&self) -> BasisName {
         self.scheme.basis()
     }
 
     /// The locking remedy.
-    #[must_use]
-    pub fn remedy(&self) -> RemedyName {
+    pub(crate) fn remedy(&self) -> RemedyName {
         self.scheme.remedy()
     }
 
     /// The transfer.
-    #[must_use]
-    pub fn transfer(&self) -> TransferName {
+    pub(crate) fn transfer(&self) -> TransferName {
         self.scheme.transfer()
     }
 
@@ -274,15 +268,13 @@ impl Record {
     }
 
     /// Whether the run broke down and was not known to.
-    #[must_use]
-    pub fn broke_down(&self) -> bool {
+    pub(crate) fn broke_down(&self) -> bool {
         let known = |v: &Verdict| v.check == BREAKS_DOWN && v.outcome == Outcome::WrongAsKnown;
         self.status == Status::Failed && !self.verdicts.iter().any(known)
     }
 
     /// A metric's value; NaN if it is missing.
-    #[must_use]
-    pub fn metric(&self, of: Metric) -> f64 {
+    pub(crate) fn metric(&self, of: Metric) -> f64 {
         self.value(of.name)
     }
 
@@ -293,27 +285,23 @@ impl Record {
     }
 
     /// Whether the run was of the case's own parameters.
-    #[must_use]
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         self.set.is_empty()
     }
 
     /// Whether `name` is the only parameter that was changed.
-    #[must_use]
-    pub fn changes_only(&self, name: &str) -> bool {
+    pub(crate) fn changes_only(&self, name: &str) -> bool {
         !self.set.is_empty() && self.changes_none_but(&[name])
     }
 
     /// Whether no other parameters than those of these names were changed.
-    #[must_use]
-    pub fn changes_none_but(&self, names: &[&str]) -> bool {
+    pub(crate) fn changes_none_but(&self, names: &[&str]) -> bool {
         let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
         changed.all(|name| names.contains(&name))
     }
 }
 
 /// The records of runs at the case's own parameters.
-#[must_use]
-pub fn of_defaults(records: &[Record]) -> Vec<&Record> {
+pub(crate) fn of_defaults(records: &[Record]) -> Vec<&Record> {
     records.iter().filter(|r| r.is_default()).collect()
 }

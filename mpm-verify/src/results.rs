@@ -149,8 +149,7 @@ impl Column {
     }
 
     /// Text of a run by itself; empty if the column needs several runs.
-    #[must_use]
-    pub fn of_run(&self, run: &Record) -> String {
+    pub(crate) fn of_run(&self, run: &Record) -> String {
         match &self.cell {
             Cell::Run(of, text) if of(run) => text(run),
             _ => String::new(),

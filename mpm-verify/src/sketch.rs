@@ -39,14 +39,12 @@ pub enum Shape {
 
 impl Shape {
     /// A length from one point to another.
-    #[must_use]
-    pub fn length(from: Point, to: Point, label: &str) -> Self {
+    pub(crate) fn length(from: Point, to: Point, label: &str) -> Self {
         Self::Length { from, to, label: label.to_owned() }
     }
 
     /// Text about a point.
-    #[must_use]
-    pub fn note(at: Point, text: &str) -> Self {
+    pub(crate) fn note(at: Point, text: &str) -> Self {
         Self::Note { at, text: text.to_owned() }
     }
 }

@@ -43,13 +43,6 @@ impl RunSpec {
         }
         folder
     }
-
-    /// Initial positions (m) of particles seeded at `positions`: these, or, if the run is perturbed, their neighbours among the
-    /// floating-point numbers.
-    #[must_use]
-    pub fn start_at<const D: usize>(&self, positions: Vec<[f64; D]>) -> Vec<[f64; D]> {
-        start_at(positions, self.perturbed)
-    }
 }
 
 /// Initial positions (m) of particles seeded at `positions`: these, or, if `perturbed`, the next floating-point numbers above
@@ -64,8 +57,7 @@ pub(crate) fn start_at<const D: usize>(mut positions: Vec<[f64; D]>, perturbed: 
 }
 
 /// Name of a run, which is also its folder below that of its case.
-#[must_use]
-pub fn run_folder(scheme: Scheme, level: &str, set: &[String]) -> String {
+pub(crate) fn run_folder(scheme: Scheme, level: &str, set: &[String]) -> String {
     let mut folder = format!("{scheme}/{level}");
     for assignment in set {
         folder.push('+');

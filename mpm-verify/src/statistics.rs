@@ -14,8 +14,7 @@ pub struct Line {
 }
 
 /// The least-squares line through `points`; `None` for fewer than three or no spread in x.
-#[must_use]
-pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
+pub(crate) fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
     let n = points.len() as f64;
     if points.len() < 3 {
         return None;
@@ -42,8 +41,7 @@ pub fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
 }
 
 /// Root mean square; NaN of nothing, which no check passes.
-#[must_use]
-pub fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
+pub(crate) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0usize);
     for v in values {
         sum += v * v;

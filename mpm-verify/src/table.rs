@@ -15,29 +15,25 @@ pub struct Sheet {
 
 impl Sheet {
     /// Without rows.
-    #[must_use]
-    pub fn new(head: impl IntoIterator<Item = impl Into<String>>) -> Self {
+    pub(crate) fn new(head: impl IntoIterator<Item = impl Into<String>>) -> Self {
         Self { head: head.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
     /// With rows.
-    #[must_use]
-    pub fn with(mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
+    pub(crate) fn with(mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
         self.rows.extend(rows);
         self
     }
 
     /// Rows as columns: the first column is the head.
-    #[must_use]
-    pub fn transposed(&self) -> Self {
+    pub(crate) fn transposed(&self) -> Self {
         let lines = || std::iter::once(&self.head).chain(&self.rows);
         let column = |k: usize| lines().map(|line| line[k].clone()).collect::<Vec<_>>();
         Self::new(column(0)).with((1..self.head.len()).map(column))
     }
 
     /// In Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         let line = |cells: &Vec<String>| {
             let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|")).collect();
             format!("| {} |\n", cells.join(" | "))
@@ -56,8 +52,7 @@ pub struct Table {
 
 impl Table {
     /// A table of columns of the same length, with their names.
-    #[must_use]
-    pub fn of_columns(columns: Vec<(String, Vec<f64>)>) -> Self {
+    pub(crate) fn of_columns(columns: Vec<(String, Vec<f64>)>) -> Self {
         let (header, columns) = columns.into_iter().unzip();
         Self { header, columns }
     }
@@ -129,14 +124,12 @@ impl Table {
     }
 
     /// Number of rows.
-    #[must_use]
-    pub fn rows(&self) -> usize {
+    pub(crate) fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }
 
     /// With this number of rows at most: evenly spaced ones, the last among them.
-    #[must_use]
-    pub fn thinned(self, most: usize) -> Self {
+    pub(crate) fn thinned(self, most: usize) -> Self {
         let total = self.rows();
         if total <= most {
             return self;
@@ -151,48 +144,28 @@ impl Table {
     }
 
     /// The column named `header`, unit included.
-    #[must_use]
-    pub fn get(&self, header: &str) -> Option<&[f64]> {
+    pub(crate) fn get(&self, header: &str) -> Option<&[f64]> {
         self.iter().find(|(h, _)| *h == header).map(|(_, v)| v)
     }
 
     /// The column whose name, before its unit, is `name`; empty without such a column.
-    #[must_use]
-    pub fn column(&self, name: &str) -> &[f64] {
+    pub(crate) fn column(&self, name: &str) -> &[f64] {
         self.iter().find(|(h, _)| h.split(" (").next() == Some(name)).map_or(&[], |(_, values)| values)
     }
 
     /// Header of the first column, by which the rows are ordered: time, or what is tried one after another.
-    #[must_use]
-    pub fn abscissa(&self) -> &str {
+    pub(crate) fn abscissa(&self) -> &str {
         self.header.first().map_or("", String::as_str)
     }
 
     /// Two columns as points.
-    #[must_use]
-    pub fn points(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
+    pub(crate) fn points(&self, x: &str, y: &str) -> Vec<(f64, f64)> {
         self.column(x).iter().copied().zip(self.column(y).iter().copied()).collect()
     }
 
     /// Two columns as points, each of which `map` changes.
     pub(crate) fn pairs(&self, [x, y]: [&str; 2], map: impl Fn(f64, f64) -> (f64, f64)) -> Vec<(f64, f64)> {
         self.points(x, y).into_iter().map(|(x, y)| map(x, y)).collect()
-    }
-
-    /// The rows whose values in the first column are those of `keys`, in that order.
-    ///
-    /// # Errors
-    /// The first key that is not there.
-    pub fn at(&self, keys: &[f64]) -> Result<Self, f64> {
-        let first = self.columns.first().map_or(&[][..], Vec::as_slice);
-        let rows = keys
-            .iter()
-            .map(|key| first.iter().position(|v| v == key).ok_or(*key))
-            .collect::<Result<Vec<usize>, f64>>()?;
-        Ok(Self {
-            header: self.header.clone(),
-            columns: self.columns.iter().map(|c| rows.iter().map(|&k| c[k]).collect()).collect(),
-        })
     }
 }
 
@@ -230,12 +203,5 @@ mod tests {
             let error = Table::read_finite(file(text).path()).unwrap_err().to_string();
             assert!(error.to_lowercase().contains(&needle.to_lowercase()), "{error}");
         }
-    }
-
-    #[test]
-    fn rows_are_found_by_their_key() {
-        let table = Table::read(file(b"t,u\n0,1\n0.5,2\n1,3\n").path()).unwrap();
-        assert_eq!(table.at(&[0.0, 1.0]).unwrap().column("u"), [1.0, 3.0]);
-        assert_eq!(table.at(&[0.0, 0.7]), Err(0.7));
     }
 }

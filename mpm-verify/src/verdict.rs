@@ -70,8 +70,7 @@ impl Verdict {
     }
 
     /// Share of its tolerance, or of its bound, that a value uses.
-    #[must_use]
-    pub fn used(&self) -> Option<f64> {
+    pub(crate) fn used(&self) -> Option<f64> {
         let (value, tolerance) = (self.value?, self.tolerance.filter(|t| *t > 0.0)?);
         match self.reference {
             Some(reference) => Some((value - reference).abs() / tolerance),
@@ -81,8 +80,7 @@ impl Verdict {
     }
 
     /// Whether it may decide the outcome of a run.
-    #[must_use]
-    pub fn decides(&self) -> bool {
+    pub(crate) fn decides(&self) -> bool {
         self.judges() || self.failed() || (self.is_wanted() && self.outcome == Outcome::NotJudged)
     }
 
@@ -119,8 +117,7 @@ impl Verdict {
     }
 
     /// Whether the check was applied, is not one of drift, and does not hold. A wanted quantity repeats what its truths say.
-    #[must_use]
-    pub fn misses_the_truth(&self) -> bool {
+    pub(crate) fn misses_the_truth(&self) -> bool {
         self.failed() && !matches!(self.kind, Kind::Drift | Kind::Wanted)
     }
 

@@ -60,8 +60,7 @@ impl Goldens {
     }
 
     /// The golden of a run, if there is one.
-    #[must_use]
-    pub fn kept(&self, record: &Record) -> Option<&Run> {
+    pub(crate) fn kept(&self, record: &Record) -> Option<&Run> {
         self.find(record).ok().map(|(run, _)| run)
     }
 

@@ -55,26 +55,22 @@ pub struct Column {
 
 impl Column {
     /// A quantity of one number.
-    #[must_use]
-    pub fn single(quantity: String, value: f64, response: f64) -> Self {
+    pub(crate) fn single(quantity: String, value: f64, response: f64) -> Self {
         Self { quantity, points: vec![Point { time: None, value, response }] }
     }
 
     /// The largest of its numbers.
-    #[must_use]
-    pub fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         self.points.iter().map(|p| p.value.abs()).fold(0.0, f64::max)
     }
 
     /// Whether it counts work.
-    #[must_use]
-    pub fn is_count(&self) -> bool {
+    pub(crate) fn is_count(&self) -> bool {
         self.quantity.starts_with(WORK)
     }
 
     /// Largest admissible difference from a point.
-    #[must_use]
-    pub fn tolerance(&self, point: &Point) -> f64 {
+    pub(crate) fn tolerance(&self, point: &Point) -> f64 {
         match self.is_count() {
             true => MARGIN * point.response,
             // Above ten times any response that is allowed.
@@ -83,8 +79,7 @@ impl Column {
     }
 
     /// Whether a number answers rounding so strongly that another order of sums would pass for drift.
-    #[must_use]
-    pub fn is_blunt(&self) -> bool {
+    pub(crate) fn is_blunt(&self) -> bool {
         !self.is_count() && self.response() > BLUNT * self.scale()
     }
 
@@ -95,8 +90,7 @@ impl Column {
     }
 
     /// The largest response of its numbers.
-    #[must_use]
-    pub fn response(&self) -> f64 {
+    pub(crate) fn response(&self) -> f64 {
         self.points.iter().map(|p| p.response).fold(0.0, f64::max)
     }
 }
@@ -112,8 +106,7 @@ pub struct Run {
 
 impl Run {
     /// Whether a watched column is among its quantities, so that there is something to draw.
-    #[must_use]
-    pub fn has_series(&self) -> bool {
+    pub(crate) fn has_series(&self) -> bool {
         self.columns.iter().any(|c| c.quantity.starts_with(SERIES))
     }
 }
@@ -173,15 +166,13 @@ impl Golden {
     }
 
     /// The goldens of a run.
-    #[must_use]
-    pub fn run(&self, name: &str) -> Option<&Run> {
+    pub(crate) fn run(&self, name: &str) -> Option<&Run> {
         self.runs.iter().find(|run| run.name == name)
     }
 
     /// Those that the picture of the case shows: a run of each of the first schemes that have a series, with the level and
     /// parameters that most of them have.
-    #[must_use]
-    pub fn shown(&self) -> Vec<Run> {
+    pub(crate) fn shown(&self) -> Vec<Run> {
         let all = || self.runs.iter().filter(|run| run.has_series());
         let setting = |run: &Run| run.name.split_once('/').map(|(_, setting)| setting.to_owned());
         let count = |run: &&Run| all().filter(|r| setting(r) == setting(run)).count();

@@ -44,8 +44,7 @@ const PAIRS: &str = "work/particle_node_pairs";
 const NONZEROS: &str = "work/nonzeros";
 
 /// File of the goldens of a case.
-#[must_use]
-pub fn file(root: &Path, case: &str) -> PathBuf {
+pub(crate) fn file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.json"))
 }
 
@@ -59,8 +58,7 @@ pub fn place(asked: Option<PathBuf>) -> PathBuf {
 }
 
 /// Picture of a case: of the runs that [`Golden::shown`] names.
-#[must_use]
-pub fn picture_file(root: &Path, case: &str) -> PathBuf {
+pub(crate) fn picture_file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.png"))
 }
 
@@ -71,8 +69,7 @@ pub fn runs(case: &Case) -> Vec<String> {
 }
 
 /// Why no golden is kept of a run, if none is.
-#[must_use]
-pub fn why_none(case: &Case, record: &Record) -> Option<String> {
+pub(crate) fn why_none(case: &Case, record: &Record) -> Option<String> {
     if (case.breaks_down)(record).is_some() {
         Some("the run breaks down as it is known to: nothing to compare".to_owned())
     } else if !runs(case).contains(&record.folder()) {
@@ -83,8 +80,7 @@ pub fn why_none(case: &Case, record: &Record) -> Option<String> {
 }
 
 /// The table from which the golden field of a case is taken, if it is one of the run in `folder`.
-#[must_use]
-pub fn field_table(case: &Case, record: &Record, folder: &Path) -> Option<PathBuf> {
+pub(crate) fn field_table(case: &Case, record: &Record, folder: &Path) -> Option<PathBuf> {
     let view = case.field.filter(|_| runs(case).first() == Some(&record.folder()))?;
     Some(field::table(&view, folder))
 }

@@ -51,8 +51,7 @@ pub struct Convergence {
 type Ladders<'a> = BTreeMap<(Scheme, &'a str), Vec<&'a Record>>;
 
 /// The convergence of every quantity of `case`, scheme by scheme: over its own runs, then over those at each set of others, in order of appearance, that a scheme has run at three levels.
-#[must_use]
-pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
+pub(crate) fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
     let mut all = over_levels(case, &[], &ladders((case.own_runs)(records).into_iter()));
     for set in distinct(records.iter().filter(|r| !r.is_default()).map(|r| &r.set[..])) {
         let mut ladders = ladders(records.iter().filter(|r| r.set == set));
@@ -64,8 +63,7 @@ pub fn convergence(case: &Case, records: &[Record]) -> Vec<Convergence> {
 
 /// The quantities of `case` scheme by scheme over the levels of its own problem (slices apart), for each time step and number of
 /// particles per cell that it has been divided into: what a value costs depends on these.
-#[must_use]
-pub fn precision(case: &Case, records: &[Record]) -> Vec<Convergence> {
+pub(crate) fn precision(case: &Case, records: &[Record]) -> Vec<Convergence> {
     let own = || records.iter().filter(|r| is_of_own_problem(r));
     let mut sets = distinct(own().map(|r| &r.set[..]));
     sets.sort_by_key(|set| set.len());

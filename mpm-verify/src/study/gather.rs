@@ -21,8 +21,7 @@ pub struct Gathered {
 
 impl Gathered {
     /// One run by itself, whose outputs lie in `folder`.
-    #[must_use]
-    pub fn single(record: Record, folder: &Path) -> Self {
+    pub(crate) fn single(record: Record, folder: &Path) -> Self {
         let place = format!("{}/{}", record.case, record.folder());
         Self {
             tier: "of a single run".to_owned(),

@@ -86,8 +86,7 @@ pub fn outcome_of<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> Ou
 }
 
 /// The outcome of a run.
-#[must_use]
-pub fn outcome_of_run(record: &Record) -> Outcome {
+pub(crate) fn outcome_of_run(record: &Record) -> Outcome {
     if record.broke_down() { Outcome::Failed } else { outcome_of(record.verdicts.iter()) }
 }
 
@@ -103,8 +102,7 @@ pub fn tightest<'a>(case: &Case, records: &'a [Record]) -> Option<(&'a Record, &
 }
 
 /// Whether a run broke down as it is known to.
-#[must_use]
-pub fn broke_as_known(record: &Record) -> bool {
+pub(crate) fn broke_as_known(record: &Record) -> bool {
     record.status == Status::Failed && !record.broke_down()
 }
 

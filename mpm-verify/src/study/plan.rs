@@ -157,8 +157,7 @@ impl Plan {
     }
 
     /// Whether the two are shares of the same whole.
-    #[must_use]
-    pub fn is_of_one_whole_with(&self, other: &Self) -> bool {
+    pub(crate) fn is_of_one_whole_with(&self, other: &Self) -> bool {
         self.tier == other.tier && self.shard.count == other.shard.count && self.runs == other.runs
     }
 

@@ -29,14 +29,12 @@ pub struct CaseStudy {
 
 impl CaseStudy {
     /// Records of which nothing is said yet.
-    #[must_use]
-    pub fn new(case: &str, records: Vec<Record>) -> Self {
+    pub(crate) fn new(case: &str, records: Vec<Record>) -> Self {
         Self { case: case.to_owned(), records, ..Self::default() }
     }
 
     /// The program that made the runs; one made them all.
-    #[must_use]
-    pub fn program(&self) -> Option<&Version> {
+    pub(crate) fn program(&self) -> Option<&Version> {
         self.records.first().map(|r| &r.version)
     }
 }
@@ -131,8 +129,7 @@ pub struct Summary {
 
 impl Summary {
     /// Summary of judged cases, in the order of [`cases::all`].
-    #[must_use]
-    pub fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
+    pub(crate) fn new(tier: &str, mut cases: Vec<CaseStudy>) -> Self {
         cases.sort_by_key(|study| cases::place(&study.case));
         let mut summary = Self { schema: SCHEMA, tier: tier.to_owned(), counts: Counts::default(), cases };
         summary.counts = count(&summary);
@@ -154,8 +151,7 @@ impl Summary {
     }
 
     /// Checks that failed, those of drift apart.
-    #[must_use]
-    pub fn failures(&self) -> usize {
+    pub(crate) fn failures(&self) -> usize {
         let c = self.counts;
         c.failed + c.bookkeeping_failed + c.regression_failed
     }
