@@ -1,6 +1,7 @@
 //! Definition of a verification case.
 
 use crate::check::Check;
+use crate::demand::Held;
 use crate::draw::Line;
 use crate::error::Error;
 use crate::gallery::Gallery;
@@ -315,7 +316,7 @@ impl Case {
     }
 
     /// With the relative cost of a run.
-    pub(crate) fn cost(self, cost: impl Fn(&RunSpec) -> f64 + Send + Sync + 'static) -> Self {
+    pub(crate) fn cost(self, cost: impl Fn(&RunSpec) -> f64 + Held) -> Self {
         Self { cost: Box::new(cost), ..self }
     }
 
@@ -330,10 +331,7 @@ impl Case {
     }
 
     /// With another beginning of a run.
-    pub(crate) fn begun(
-        self,
-        begin: impl Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn begun(self, begin: impl Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Held) -> Self {
         Self { begin: Box::new(begin), ..self }
     }
 

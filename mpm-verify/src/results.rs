@@ -1,6 +1,7 @@
 //! Tables of results as data: which runs they show, what the runs of a row have in common, and what the columns say.
 
 use crate::accuracy::{Order, fit_order};
+use crate::demand::Held;
 use crate::distinct;
 use crate::metric::Metric;
 use crate::record::{Record, Status};
@@ -113,16 +114,12 @@ pub(crate) fn headline(metric: Metric, title: &str, factor: f64, decimals: usize
 
 impl Column {
     /// Column of a text per run.
-    pub(crate) fn text(title: impl Into<String>, text: impl Fn(&Record) -> String + Send + Sync + 'static) -> Self {
+    pub(crate) fn text(title: impl Into<String>, text: impl Fn(&Record) -> String + Held) -> Self {
         Self { title: title.into(), metric: None, cell: Cell::Run(Box::new(|_| true), Box::new(text)) }
     }
 
     /// A number of a run.
-    pub(crate) fn value(
-        title: impl Into<String>,
-        value: impl Fn(&Record) -> f64 + Send + Sync + 'static,
-        format: Format,
-    ) -> Self {
+    pub(crate) fn value(title: impl Into<String>, value: impl Fn(&Record) -> f64 + Held, format: Format) -> Self {
         Self::text(title, move |r| format.text(value(r)))
     }
 
@@ -132,15 +129,12 @@ impl Column {
     }
 
     /// Column of a text per row, given the runs of the row and of the table; the text may be empty.
-    pub(crate) fn row(
-        title: impl Into<String>,
-        text: impl Fn(&[&Record], &[&Record]) -> String + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn row(title: impl Into<String>, text: impl Fn(&[&Record], &[&Record]) -> String + Held) -> Self {
         Self { title: title.into(), metric: None, cell: Cell::Row(Box::new(text)) }
     }
 
     /// Restricts the column to the first matching run of the row.
-    pub(crate) fn of(self, run: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
+    pub(crate) fn of(self, run: impl Fn(&Record) -> bool + Held) -> Self {
         let cell = match self.cell {
             Cell::Run(_, text) => Cell::Run(Box::new(run), text),
             row @ Cell::Row(_) => row,
@@ -162,7 +156,7 @@ impl Column {
     }
 
     /// The same over those that `converge`.
-    pub(crate) fn order_of(metric: Metric, converge: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
+    pub(crate) fn order_of(metric: Metric, converge: impl Fn(&Record) -> bool + Held) -> Self {
         Self::row("order ± (between levels)", move |runs, _| {
             let found = order(runs.iter().copied().filter(|r| converge(r)), metric.name);
             found.map_or_else(|| "–".to_owned(), |o| format!("{o} ({})", o.between()))
@@ -194,7 +188,7 @@ impl Column {
     /// A metric at each of `values` of what `key` reads from a run, by value and title.
     pub(crate) fn over<T: Into<String>>(
         values: impl IntoIterator<Item = (f64, T)>,
-        key: impl Fn(&Record) -> f64 + Clone + Send + Sync + 'static,
+        key: impl Fn(&Record) -> f64 + Clone + Held,
         metric: Metric,
         format: Format,
     ) -> Vec<Self> {
@@ -249,7 +243,7 @@ impl ResultTable {
     /// Table of the runs that it `shows`, with the labels that the runs of a row share, and the columns.
     pub(crate) fn new(
         name: impl Into<String>,
-        shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
+        shows: impl Fn(&Record) -> bool + Held,
         labels: &[Label],
         columns: impl IntoIterator<Item = Column>,
     ) -> Self {
@@ -264,7 +258,7 @@ impl ResultTable {
     }
 
     /// Table of the runs that it `shows`, without labels and columns yet.
-    pub(crate) fn of(name: impl Into<String>, shows: impl Fn(&Record) -> bool + Send + Sync + 'static) -> Self {
+    pub(crate) fn of(name: impl Into<String>, shows: impl Fn(&Record) -> bool + Held) -> Self {
         Self::new(name, shows, &[], [])
     }
 
@@ -290,21 +284,12 @@ impl ResultTable {
     }
 
     /// Adds a number of a run.
-    pub(crate) fn value(
-        self,
-        title: impl Into<String>,
-        value: impl Fn(&Record) -> f64 + Send + Sync + 'static,
-        format: Format,
-    ) -> Self {
+    pub(crate) fn value(self, title: impl Into<String>, value: impl Fn(&Record) -> f64 + Held, format: Format) -> Self {
         self.column(Column::value(title, value, format))
     }
 
     /// Adds a text of a run.
-    pub(crate) fn text(
-        self,
-        title: impl Into<String>,
-        text: impl Fn(&Record) -> String + Send + Sync + 'static,
-    ) -> Self {
+    pub(crate) fn text(self, title: impl Into<String>, text: impl Fn(&Record) -> String + Held) -> Self {
         self.column(Column::text(title, text))
     }
 
@@ -317,7 +302,7 @@ impl ResultTable {
     pub(crate) fn by_remedy(
         name: &str,
         remedies: &[RemedyName],
-        shows: impl Fn(&Record) -> bool + Send + Sync + 'static,
+        shows: impl Fn(&Record) -> bool + Held,
         text: fn(&Record) -> String,
     ) -> Self {
         let column = |&remedy: &RemedyName| Column::text(remedy.text(), text).of(move |r| r.remedy() == remedy);

@@ -21,10 +21,7 @@ pub(super) fn newton_rate(of: &Convergence, tolerance: f64) -> Option<f64> {
 }
 
 /// The check of the largest such rate of a run's steps, whose body is stiffer in one motion than in another by `ratio`.
-pub(super) fn quadratic<P: ParameterSet>(
-    largest: Metric,
-    ratio: impl Fn(&Run<P>) -> f64 + Send + Sync + 'static,
-) -> CheckOf<P> {
+pub(super) fn quadratic<P: ParameterSet>(largest: Metric, ratio: impl Fn(&Run<P>) -> f64 + Held) -> CheckOf<P> {
     CheckOf::truth("quadratic", "Newton near the solution of every step: some iteration contracts the residual by √(sτ/r) at least, s the ratio of stiffnesses")
         .when(move |r: &Run<P>| r.metric(largest).is_finite())
         .at_most(largest, move |r| ratio(r).sqrt())

@@ -151,9 +151,7 @@ pub(in crate::cases) fn of_motion(claims: Claims, wave: Wave) -> Vec<Check> {
 }
 
 /// A run whose error is larger than what it measures is wrong, whatever else of it is right, where a reason is known.
-pub(in crate::cases) fn motion_lost(
-    why: impl Fn(&Run<()>) -> Option<&'static str> + Clone + Send + Sync + 'static,
-) -> Check {
+pub(in crate::cases) fn motion_lost(why: impl Fn(&Run<()>) -> Option<&'static str> + Clone + Held) -> Check {
     let known = why.clone();
     Gate::known_limit(
         "motion-lost",
@@ -171,10 +169,7 @@ pub(in crate::cases) fn moves(p: &Parameters) -> bool {
 }
 
 /// A wave without an amplitude, or without what drives it, is a state of rest, from which particles are at most a `bound` (m).
-pub(in crate::cases) fn rests(
-    statement: &'static str,
-    bound: impl Fn(&Run<()>) -> f64 + Send + Sync + 'static,
-) -> Check {
+pub(in crate::cases) fn rests(statement: &'static str, bound: impl Fn(&Run<()>) -> f64 + Held) -> Check {
     Gate::truth("rests", statement)
         .when(|r| !moves(&r.values))
         .unless(|r| {
