@@ -15,7 +15,7 @@ pub(crate) use crate::job::{Job, Row, Snapshot, row};
 pub(crate) use crate::metric::{Metric, Sweep, error, metrics, value};
 pub(crate) use crate::parameter::{Parameter, ParameterSet, Parameters, choices, flag, parameters, real, whole};
 pub(crate) use crate::probe::PointProbe;
-pub(crate) use crate::problem::{Columns, Phase, Problem, Rows};
+pub(crate) use crate::problem::{Begun, Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};
 pub(crate) use crate::results::{
     BASIS, CELLS, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent, scientific, share,

@@ -12,6 +12,9 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+/// A simulation at its start, or the reason why there is none.
+pub(crate) type Begun<const D: usize> = Result<Box<dyn Simulation<D>>, mpm_core::Error>;
+
 /// The current simulation of a run, which may consist of several in sequence: a gravity phase, then the flow.
 pub struct Phase<const D: usize> {
     /// The simulation.
@@ -88,7 +91,7 @@ pub trait Problem<const D: usize>: Sized + Send {
     /// The discretisation.
     fn discretisation(&self) -> Discretisation;
     /// Initial simulation of the phase that `seen` records.
-    fn begin(&self, seen: &Self::Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error>;
+    fn begin(&self, seen: &Self::Seen) -> Begun<D>;
     /// Runs to the next time of observation, enters the next simulation if one is due, and returns the row of the series.
     fn row(&self, seen: &mut Self::Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error>;
     /// Share of the longest possible run that is done; at 1 the run is complete.

@@ -21,7 +21,7 @@ pub(super) trait Analysis: Sized + Send {
     /// Number of rows.
     fn rows(&self) -> usize;
     /// Analyses the `k`-th row.
-    fn analyse(&self, k: usize) -> Result<Self::Found, mpm_core::Error>;
+    fn analyse(&self, k: usize) -> Result<Self::Found, Fault>;
     /// The `k`-th row of the series.
     fn row(&self, k: usize, found: &Self::Found) -> Row;
     /// Positions (m) of the particles.
@@ -77,7 +77,7 @@ impl<A: Analysis> Job for Run<A> {
         self.analysis.discretisation()
     }
 
-    fn advance(&mut self) -> Result<Row, mpm_core::Error> {
+    fn advance(&mut self) -> Result<Row, Fault> {
         let k = self.found.len();
         let found = self.analysis.analyse(k)?;
         let row = self.analysis.row(k, &found);

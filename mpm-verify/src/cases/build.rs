@@ -27,12 +27,7 @@ impl<P: ParameterSet> Setup<P> {
 
     /// The explicit solver of a scene, in steps of `dt` (s), with a factor of local damping, and the share of FLIP that the
     /// parameter `flip` sets.
-    pub(super) fn explicit<const D: usize>(
-        &self,
-        scene: Scene<D>,
-        dt: f64,
-        damping: f64,
-    ) -> Result<Box<dyn Simulation<D>>, Fault> {
+    pub(super) fn explicit<const D: usize>(&self, scene: Scene<D>, dt: f64, damping: f64) -> Begun<D> {
         let settings = self.settings(dt, damping)?;
         let share = self.values.number(common::FLIP);
         let settings = if share.is_nan() { settings } else { settings.transfer(Flip::new(share)?) };
@@ -40,12 +35,7 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// The solver of a scheme of bodies that move, explicit or implicit: see [`Self::explicit`].
-    pub(super) fn moving<const D: usize>(
-        &self,
-        scene: Scene<D>,
-        dt: f64,
-        damping: f64,
-    ) -> Result<Box<dyn Simulation<D>>, Fault> {
+    pub(super) fn moving<const D: usize>(&self, scene: Scene<D>, dt: f64, damping: f64) -> Begun<D> {
         match self.implicit_settings(dt) {
             Some(settings) => mpm_solvers::implicit(self.scheme, scene, settings),
             None => self.explicit(scene, dt, damping),

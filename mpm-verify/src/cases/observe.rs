@@ -14,7 +14,7 @@ impl<P: ParameterSet> Setup<P> {
     }
 
     /// Wall treatment and remedy of an explicit run that takes steps of `dt` (s), and local damping if there is any.
-    pub(super) fn settings<const D: usize>(&self, dt: f64, damping: f64) -> Result<Settings<D>, mpm_core::Error> {
+    pub(super) fn settings<const D: usize>(&self, dt: f64, damping: f64) -> Result<Settings<D>, Fault> {
         let settings = Settings::new(dt).wall(self.wall_treatment()).remedy(self.remedy().build());
         if damping > 0.0 { Ok(settings.filter_forces(LocalDamping::new(damping)?)) } else { Ok(settings) }
     }
@@ -83,7 +83,7 @@ impl<P: ParameterSet> Setup<P> {
 }
 
 /// Whether steps have ended well: a static one that has found no equilibrium leaves the body as it was.
-pub(super) fn finds_equilibrium(step: Result<(), mpm_core::Error>) -> Result<bool, mpm_core::Error> {
+pub(super) fn finds_equilibrium(step: Result<(), Fault>) -> Result<bool, Fault> {
     use mpm_core::Error::{Breakdown, NoConvergence, Singular};
     match step {
         Ok(()) => Ok(true),

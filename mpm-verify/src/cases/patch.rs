@@ -256,7 +256,7 @@ impl<const D: usize> Problem<D> for Moving {
         self.setup.regular(D, self.dt)
     }
 
-    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<D>>, Fault> {
+    fn begin(&self, _: &Rows) -> Begun<D> {
         let h = self.setup.h;
         let cells = (SIDE / h).round();
         let ways = self.exact(&[SIDE; D], DURATION, 0.0)[0];

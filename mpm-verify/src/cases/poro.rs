@@ -21,10 +21,7 @@ pub(super) const PER_CELL: usize = 2;
 const ROOM: usize = 2;
 
 /// A column on a sealed floor.
-pub(super) fn column<P: ParameterSet>(
-    setup: &Setup<P>,
-    law: impl Into<SharedLaw>,
-) -> Result<Scene<1>, mpm_core::Error> {
+pub(super) fn column<P: ParameterSet>(setup: &Setup<P>, law: impl Into<SharedLaw>) -> Result<Scene<1>, Fault> {
     let (h, cells) = (setup.h, (HEIGHT / setup.h).round() as usize);
     let axis = Axis::bounded(0.0, cells + ROOM, (Side::Wall, Side::Open));
     let spacing = h / PER_CELL as f64;

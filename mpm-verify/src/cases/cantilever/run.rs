@@ -67,7 +67,7 @@ impl Setup<Cantilever> {
     }
 
     /// The simulation at its start.
-    pub(super) fn scene(&self) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    pub(super) fn scene(&self) -> Begun<2> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
         let law: SharedLaw = match self.law {
             LawName::Hencky => Hencky::new(young, ratio)?.into(),
@@ -140,11 +140,11 @@ impl Problem<2> for Bending {
         self.setup.discretisation(2, ppc, 1.0 / f64::from(self.setup.load_steps))
     }
 
-    fn begin(&self, _: &Steps) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Steps) -> Begun<2> {
         self.setup.scene()
     }
 
-    fn row(&self, seen: &mut Steps, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Steps, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         let convergence = run.convergence().cloned().unwrap_or_default();

@@ -71,7 +71,7 @@ impl Analysis for Setup<Ellipse> {
         self.positions
     }
 
-    fn analyse(&self, k: usize) -> Result<Found, mpm_core::Error> {
+    fn analyse(&self, k: usize) -> Result<Found, Fault> {
         match self.basis() {
             Gimp => self.with::<Means>(k),
             _ => self.with::<Hats>(k),
@@ -147,7 +147,7 @@ impl Setup<Ellipse> {
     }
 
     /// The matrices at the `k`-th place with the functions `I`.
-    fn with<I: OfHats<2>>(&self, k: usize) -> Result<Found, mpm_core::Error> {
+    fn with<I: OfHats<2>>(&self, k: usize) -> Result<Found, Fault> {
         let h = self.h;
         let grid = Grid::new(h, [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])])?;
         let of_pressure = if self.space() == Some(Equal) { grid } else { coarse(&grid)? };
@@ -183,7 +183,7 @@ impl Setup<Ellipse> {
     }
 
     /// Change by α of the mean deflection of the cantilever with the functions `I`.
-    fn deflection_change<I: OfHats<2>>(&self) -> Result<f64, mpm_core::Error> {
+    fn deflection_change<I: OfHats<2>>(&self) -> Result<f64, Fault> {
         let h = self.h;
         let functions = I::on(Grid::new(h, [Axis::walls(0.0, BEAM_GRID[0]), Axis::open(0.0, BEAM_GRID[1])])?)?;
         let count = BEAM.map(|cells| cells * PARTICLES);
@@ -205,7 +205,7 @@ impl Setup<Ellipse> {
                 iteration: 0,
                 cause: mpm_core::Cause::Unknown,
             })?;
-            Ok::<f64, mpm_core::Error>(factors.solve(&force).dot(&force))
+            Ok::<f64, Fault>(factors.solve(&force).dot(&force))
         };
         let plain = work(stiffness.clone())?;
         Ok(work(stiffness + ghost)? / plain - 1.0)

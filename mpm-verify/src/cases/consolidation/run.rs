@@ -112,7 +112,7 @@ impl Problem<1> for Setup<Consolidation> {
         self.discretisation(1, PER_CELL, self.first_and_growth().0 * TIME_SCALE)
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<1> {
         let (h, topmost) = (self.h, topmost(self.h));
         let scene = column(self, ImprovedHencky::new(BULK, SHEAR, POROSITY)?)?;
         let load = self.whole_load();
@@ -138,7 +138,7 @@ impl Problem<1> for Setup<Consolidation> {
         mpm_solvers::poro(self.scheme, scene, water, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, Fault> {
         let before = volumes(phase.run.as_ref());
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();

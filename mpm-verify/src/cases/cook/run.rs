@@ -53,7 +53,7 @@ impl Setup<Cook> {
         self.load_ramp * self.period()
     }
 
-    fn law(&self) -> Result<NeoHookean, mpm_core::Error> {
+    fn law(&self) -> Result<NeoHookean, Fault> {
         NeoHookean::new(self.young_modulus, self.poisson_ratio)
     }
 
@@ -67,7 +67,7 @@ impl Setup<Cook> {
     }
 
     /// The particles at their start, with the shares of the full load as their external forces.
-    pub(super) fn loaded_particles(&self) -> Result<Particles<2>, mpm_core::Error> {
+    pub(super) fn loaded_particles(&self) -> Result<Particles<2>, Fault> {
         let mut particles = self.particles()?;
         for load in self.loads(0.0, &particles) {
             load.add(0.0, &mut particles);
@@ -91,7 +91,7 @@ impl Setup<Cook> {
     }
 
     /// The membrane, its clamp and its load, which grows over `ramp` (s), with this `headroom` (m) beyond the margin.
-    fn scene(&self, ramp: f64, headroom: f64) -> Result<Scene<2>, mpm_core::Error> {
+    fn scene(&self, ramp: f64, headroom: f64) -> Result<Scene<2>, Fault> {
         let h = self.h;
         let cells = |length: f64| (length / h).ceil() as usize;
         let (right, below, above) = MARGIN;
@@ -147,7 +147,7 @@ impl Seen {
 
 /// One step, and the out-of-balance virtual work in it: Σ m a·u over Σ f·u of the load. In a
 /// linear body this is the relative error of the displacement under the load (Betti).
-fn step_and_weigh(run: &mut dyn Simulation<2>, dt: f64) -> Result<f64, mpm_core::Error> {
+fn step_and_weigh(run: &mut dyn Simulation<2>, dt: f64) -> Result<f64, Fault> {
     let p = run.particles();
     let before = [0, 1].map(|a| p.seeded(|k| p.velocity[k][a]));
     run.step()?;
@@ -176,7 +176,7 @@ fn has_stopped(run: &dyn Simulation<2>) -> bool {
 
 impl Membrane {
     /// The criterion of rest, with its observations so far.
-    fn rest(&self, seen: &Seen) -> Result<RestCriterion, mpm_core::Error> {
+    fn rest(&self, seen: &Seen) -> Result<RestCriterion, Fault> {
         let (force_ratio, energy_ratio, drift) = REST;
         let mut rest = RestCriterion::new(force_ratio, energy_ratio, drift, self.window());
         if let Some(saved) = &seen.rest {
@@ -201,7 +201,7 @@ impl Membrane {
     }
 
     /// Row of a membrane that moves.
-    fn observe(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn observe(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let mut rest = self.rest(seen)?;
         let steps = ((self.setup.period() / OBSERVATIONS / self.dt).round() as u64).max(1);
         phase.steps(steps - 1)?;
@@ -253,7 +253,7 @@ impl Membrane {
     }
 
     /// Row of a membrane in equilibrium.
-    fn press(&self, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn press(&self, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         let (uy, totals) = (displacement(run, 1), run.totals());
@@ -317,7 +317,7 @@ impl Problem<2> for Membrane {
         self.setup.regular(2, self.dt)
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<2> {
         let setup = &self.setup;
         if setup.is_explicit() {
             let mut settings = setup.settings(self.dt, setup.damping)?.transfer(Flip::new(setup.flip)?);
@@ -333,7 +333,7 @@ impl Problem<2> for Membrane {
         mpm_solvers::implicit(setup.scheme, setup.scene(1.0, headroom)?, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         if self.setup.is_explicit() { self.observe(seen, phase) } else { self.press(phase) }
     }
 

@@ -86,7 +86,7 @@ impl<const D: usize> Trials<D> {
         ROOM as f64 - edge - self.setup.cut
     }
 
-    fn trial(&self, cfl: f64) -> Result<Box<dyn Simulation<D>>, Fault> {
+    fn trial(&self, cfl: f64) -> Begun<D> {
         let h = self.setup.h;
         let stretch = self.setup.stretch;
         let axes: Vec<Vec<f64>> = (0..D)
@@ -189,7 +189,7 @@ impl<const D: usize> Problem<D> for Trials<D> {
         Discretisation { wall: String::new(), ..self.setup.regular(D, longest) }
     }
 
-    fn begin(&self, seen: &Grown) -> Result<Box<dyn Simulation<D>>, Fault> {
+    fn begin(&self, seen: &Grown) -> Begun<D> {
         self.trial(seen.cfl())
     }
 

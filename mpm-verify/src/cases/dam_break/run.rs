@@ -65,7 +65,7 @@ impl Dam {
     }
 
     /// The water behind the gate: exactly at rest, or without weight yet.
-    fn behind_the_gate(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn behind_the_gate(&self) -> Begun<2> {
         let rise = if self.is_staged() { RISE } else { 0.0 };
         let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
         let mut settings = self.settings()?;
@@ -76,7 +76,7 @@ impl Dam {
     }
 
     /// The same water without a gate.
-    pub(super) fn released(&self) -> Result<Box<dyn Simulation<2>>, Fault> {
+    pub(super) fn released(&self) -> Begun<2> {
         solver(self.setup.scheme, self.tank(0.0)?, self.settings()?)
     }
 
@@ -265,7 +265,7 @@ impl Problem<2> for Dam {
         self.setup.regular(2, self.dt)
     }
 
-    fn begin(&self, seen: &Observed) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn begin(&self, seen: &Observed) -> Begun<2> {
         if seen.free { self.released() } else { self.behind_the_gate() }
     }
 

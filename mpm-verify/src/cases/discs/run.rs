@@ -233,7 +233,7 @@ impl Problem<2> for Collision {
         self.setup.regular(2, self.setup.timing().0)
     }
 
-    fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Extremes) -> Begun<2> {
         let h = self.setup.h;
         let way = self.setup.duration() * self.setup.speed;
         let beyond = way - DURATION * AT_SPEED + self.setup.aside();
@@ -261,7 +261,7 @@ impl Problem<2> for Collision {
         self.setup.moving(Scene::new(grid, bodies), self.setup.timing().0, 0.0)
     }
 
-    fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Extremes, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let start = *seen.start.get_or_insert_with(|| self.sums(phase.run.as_ref()));
         let finer = CELL / self.setup.h;
         let paper = ROW * finer / self.setup.step_factor.value() * (AT_SPEED / self.setup.speed);

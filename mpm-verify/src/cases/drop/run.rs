@@ -150,7 +150,7 @@ impl Problem<2> for Falling {
         Discretisation { wall: "none".to_owned(), ..self.setup.regular(2, self.dt) }
     }
 
-    fn begin(&self, _: &Extremes) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn begin(&self, _: &Extremes) -> Begun<2> {
         let (h, spacing) = (self.setup.h, self.setup.pitch());
         let count = (SIDE / spacing).round() as usize;
         let mut particles = self.setup.particles_at(by_rows([count; 2], spacing), spacing, DENSITY)?;

@@ -163,7 +163,7 @@ impl Ground {
     }
 
     /// Begins a stage with the ground as it is.
-    fn enter(&self, seen: &mut Seen, phase: &mut Phase<2>, stage: Stage) -> Result<(), mpm_core::Error> {
+    fn enter(&self, seen: &mut Seen, phase: &mut Phase<2>, stage: Stage) -> Result<(), Fault> {
         if seen.stage.moves() {
             seen.before += phase.run.time();
         }
@@ -188,7 +188,7 @@ impl Ground {
     }
 
     /// Steps through a row; false where there is no equilibrium: the ground is then as it was before the row.
-    fn goes_on(&self, seen: &Seen, phase: &mut Phase<2>) -> Result<bool, mpm_core::Error> {
+    fn goes_on(&self, seen: &Seen, phase: &mut Phase<2>) -> Result<bool, Fault> {
         if seen.stage.moves() {
             phase.steps(self.steps_in_row)?;
             return Ok(true);
@@ -246,11 +246,11 @@ impl Problem<2> for Ground {
         self.setup.regular(2, self.dt)
     }
 
-    fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, seen: &Seen) -> Begun<2> {
         self.simulation(seen.stage)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         if seen.start.is_empty() {
             self.note_start(seen, phase);
         }

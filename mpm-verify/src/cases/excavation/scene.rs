@@ -73,12 +73,12 @@ impl Setup<Excavation> {
         self.unit_weight / GRAVITATION
     }
 
-    fn strength(&self) -> Result<Strength, mpm_core::Error> {
+    fn strength(&self) -> Result<Strength, Fault> {
         let [peak, residual, slope] = [self.peak, self.residual, self.softening].map(|c| SQRT_2 * c);
         Strength::softening_linearly(peak, residual, slope)
     }
 
-    fn hencky(&self) -> Result<HenckyJ2, mpm_core::Error> {
+    fn hencky(&self) -> Result<HenckyJ2, Fault> {
         HenckyJ2::new(self.young_modulus, self.poisson_ratio, self.strength()?)
     }
 
@@ -94,7 +94,7 @@ impl Setup<Excavation> {
     }
 
     /// Time step (s) after the excavation, and number of steps in a row.
-    fn timing(&self) -> Result<(f64, u64), mpm_core::Error> {
+    fn timing(&self) -> Result<(f64, u64), Fault> {
         let speed = self.hencky()?.wave_speed(self.density());
         let row = self.duration / self.rows(Stage::Collapse) as f64;
         let steps = (row * speed / (self.cfl * self.h)).ceil().max(1.0);
@@ -119,7 +119,7 @@ impl Setup<Excavation> {
         (turning, length)
     }
 
-    fn grid(&self) -> Result<Grid<2>, mpm_core::Error> {
+    fn grid(&self) -> Result<Grid<2>, Fault> {
         let cells = |length: f64| (length / self.h).round() as usize;
         let along = cells(self.crest + HEIGHT + ROOM);
         let up = cells(HEIGHT) + MARGIN;
@@ -132,7 +132,7 @@ impl Setup<Excavation> {
     }
 
     /// Coulomb's friction beneath the particles, with a barrier that just touches the lowest ones.
-    fn contact(&self) -> Result<RigidContact<2>, mpm_core::Error> {
+    fn contact(&self) -> Result<RigidContact<2>, Fault> {
         let reach = REACH * self.h;
         let weight = self.unit_weight * HEIGHT * self.pitch();
         let gap = (1.0 - GIVES_WAY) * reach;
@@ -143,7 +143,7 @@ impl Setup<Excavation> {
     }
 
     /// Settings of a stage.
-    fn stage_settings(&self, stage: Stage) -> Result<Settings, mpm_core::Error> {
+    fn stage_settings(&self, stage: Stage) -> Result<Settings, Fault> {
         let (dt, _) = self.timing()?;
         let settings = self.implicit_settings(dt).ok_or(mpm_core::Error::Input {
             what: "solvers of the excavation other than quasi-static, midpoint and newmark",
@@ -220,7 +220,7 @@ impl Ground {
         })
     }
 
-    fn particles_of(&self, stage: Stage) -> Result<Particles<2>, mpm_core::Error> {
+    fn particles_of(&self, stage: Stage) -> Result<Particles<2>, Fault> {
         let count = if stage.is_whole() { self.places.len() } else { self.kept };
         let (places, spacing) = (self.places[..count].to_vec(), self.setup.pitch());
         let (density, half_size) = (self.setup.density(), [0.5 * spacing; 2]);
@@ -233,7 +233,7 @@ impl Ground {
     }
 
     /// The simulation of a stage at its start.
-    pub(super) fn simulation(&self, stage: Stage) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    pub(super) fn simulation(&self, stage: Stage) -> Begun<2> {
         let setup = &self.setup;
         let (young, ratio) = (setup.young_modulus, setup.poisson_ratio);
         let law: SharedLaw = match setup.law == LawName::Hencky {

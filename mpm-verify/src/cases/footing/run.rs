@@ -72,7 +72,7 @@ impl Setup<Footing> {
         self.undrained_strength / self.young_modulus
     }
 
-    fn law(&self) -> Result<HenckyJ2, mpm_core::Error> {
+    fn law(&self) -> Result<HenckyJ2, Fault> {
         HenckyJ2::new(self.young_modulus, self.poisson_ratio, Strength::undrained(self.undrained_strength)?)
     }
 
@@ -178,7 +178,7 @@ impl Pressing {
     }
 
     /// The footing as a barrier on the particles that come near it.
-    fn contact(&self, barrier: Barrier, particles: &Particles<2>) -> Result<RigidContact<2>, mpm_core::Error> {
+    fn contact(&self, barrier: Barrier, particles: &Particles<2>) -> Result<RigidContact<2>, Fault> {
         let reach = REACH * self.setup.h;
         let face = RigidFace::half_space(1, End::Hi, 0.0)?
             .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
@@ -226,7 +226,7 @@ impl Problem<2> for Pressing {
         self.setup.regular(2, self.pace.dt)
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<2> {
         let (setup, h) = (&self.setup, self.setup.h);
         let cells = |widths: i32| (f64::from(widths) * WIDTH / h).round() as usize;
         let (across, down) = (cells(setup.domain_width), cells(setup.domain_depth));
@@ -257,7 +257,7 @@ impl Problem<2> for Pressing {
         }
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let (mut force, mut base, mut time) = (0.0, 0.0, 0.0);
         for _ in 0..self.pace.steps_per_row {
             let start = phase.run.time();

@@ -44,7 +44,7 @@ impl Job for Beside {
         self.slide.discretisation()
     }
 
-    fn advance(&mut self) -> Result<Row, mpm_core::Error> {
+    fn advance(&mut self) -> Result<Row, Fault> {
         let mut row = self.slide.advance()?;
         let plane = self.plane.advance()?.0;
         row.0.extend([("plane_strain_toe (m)", plane[TOE].1), ("plane_strain_settlement (m)", plane[SETTLEMENT].1)]);

@@ -91,7 +91,7 @@ impl Setup<Landslide> {
     }
 
     /// The strength with its peak, and only that, divided by `reduction`.
-    fn strength(&self, reduction: f64) -> Result<Strength, mpm_core::Error> {
+    fn strength(&self, reduction: f64) -> Result<Strength, Fault> {
         let peak = self.peak_strength / reduction;
         Strength::softening(peak, self.residual_strength.min(peak), self.softening)
     }
@@ -107,7 +107,7 @@ pub(super) struct Slide<const D: usize> {
 
 impl<const D: usize> Slide<D> {
     /// Ends the gravity stage.
-    fn release(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
+    fn release(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), Fault> {
         self.measure_rest(seen, phase.run.as_mut());
         seen.released = positions(phase.run.as_ref());
         self.reduce(seen, phase)?;
@@ -118,7 +118,7 @@ impl<const D: usize> Slide<D> {
     }
 
     /// Reduces the strength to that of the next row.
-    fn reduce(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), mpm_core::Error> {
+    fn reduce(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<(), Fault> {
         let run = phase.run.as_mut();
         let (time, steps, totals) = (run.time(), run.work().steps, run.totals());
         let plastic_strain = plastic_strain(run);
@@ -137,7 +137,7 @@ impl<const D: usize> Slide<D> {
 
 impl<const D: usize> Slide<D> {
     /// The strength that holds now.
-    fn strength(&self, seen: &Seen) -> Result<Strength, mpm_core::Error> {
+    fn strength(&self, seen: &Seen) -> Result<Strength, Fault> {
         self.setup.strength(seen.reduction.unwrap_or(1.0))
     }
 
@@ -162,7 +162,7 @@ impl<const D: usize> Slide<D> {
         }
     }
 
-    fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<State, mpm_core::Error> {
+    fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<State, Fault> {
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let look = self.look(&positions, &plastic_strain);
         let totals = run.totals();
@@ -189,7 +189,7 @@ impl<const D: usize> Slide<D> {
     }
 
     /// Energy that flow has dissipated (J/m³) at every particle: with former strengths, then with the current one.
-    fn dissipated(&self, seen: &Seen, now: &[f64]) -> Result<Vec<f64>, mpm_core::Error> {
+    fn dissipated(&self, seen: &Seen, now: &[f64]) -> Result<Vec<f64>, Fault> {
         let strength = self.strength(seen)?;
         let work = |strain: f64| strength.plastic_work(strain);
         let before = seen.before.dissipated.iter().zip(&seen.before.plastic_strain);
@@ -259,7 +259,7 @@ fn section_of<const D: usize>(x: &[f64; D]) -> [f64; 2] {
 }
 
 /// A breakdown, with time and steps of the strengths that held before since the release.
-fn since_release(before: &Before, error: mpm_core::Error) -> mpm_core::Error {
+fn since_release(before: &Before, error: Fault) -> Fault {
     match error {
         mpm_core::Error::Breakdown { time, step, particle, fault } => {
             mpm_core::Error::Breakdown { time: before.time + time, step: before.steps + step, particle, fault }
@@ -304,14 +304,14 @@ impl<const D: usize> Problem<D> for Slide<D> {
         self.setup.regular(D, self.ground.dt)
     }
 
-    fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, seen: &Seen) -> Begun<D> {
         let (rise, damping) = if seen.reduction.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, self.setup.damping) };
         let scene = self.ground.scene(&self.setup, self.strength(seen)?, rise)?;
         let settings = self.setup.settings(self.ground.dt, damping)?;
         mpm_solvers::solver(self.setup.scheme, scene, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, Fault> {
         let base = |phase: &Phase<D>| phase.run.on(Part::Constraint(BASE)).impulse[1];
         let before = base(phase);
         phase.steps(self.ground.steps_per_row).map_err(|e| since_release(&seen.before, e))?;

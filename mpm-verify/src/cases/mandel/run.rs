@@ -187,7 +187,7 @@ impl Problem<2> for Consolidation {
         self.setup.discretisation(2, PER_CELL * PER_CELL, dt)
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<2> {
         let c = &self.setup;
         let (h, load) = (c.h, c.load);
         let cells = [WIDTH, HEIGHT].map(|length| (length / h).round() as usize);
@@ -211,7 +211,7 @@ impl Problem<2> for Consolidation {
         mpm_solvers::poro(c.scheme, scene, water, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         seen.steps += 1;

@@ -244,11 +244,11 @@ impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
         self.scenario.discretisation::<D>(self.timing.dt)
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<D> {
         self.scenario.begin(self.timing.dt)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, Fault> {
         if seen.rows.is_empty() {
             let start = phase.run.as_ref();
             seen.at_start = K::RESTS.then(|| self.volumes(start));

@@ -103,7 +103,7 @@ impl<K: Known> Scenario<K> {
     }
 
     /// The simulation at its start, with steps of `dt` (s).
-    pub(super) fn begin<const D: usize>(&self, dt: f64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    pub(super) fn begin<const D: usize>(&self, dt: f64) -> Begun<D> {
         solved(&self.setup, self.scene(self.medium(), dt)?, dt)
     }
 
@@ -112,14 +112,14 @@ impl<K: Known> Scenario<K> {
         &self,
         law: impl Into<SharedLaw>,
         dt: f64,
-    ) -> Result<Scene<D>, mpm_core::Error> {
+    ) -> Result<Scene<D>, Fault> {
         let (grid, walls) = self.surroundings()?;
         let body = Bodies::new(law, self.seed(dt)?)?;
         Ok(Scene::new(grid, body).load(forcing(&self.solution)).constrain_all(walls))
     }
 
     /// The grid and what holds the body, which must fill its cells: particles of the whole cells would be another body.
-    fn surroundings<const D: usize>(&self) -> Result<(Grid<D>, Vec<Wall>), mpm_core::Error> {
+    fn surroundings<const D: usize>(&self) -> Result<(Grid<D>, Vec<Wall>), Fault> {
         let (extent, h) = (self.solution.extent(), self.setup.h);
         for [lo, hi] in &extent[..self.solution.dimension()] {
             let value = (hi - lo) / h;
@@ -158,7 +158,7 @@ impl<K: Known> Scenario<K> {
     }
 
     /// Particles on a lattice over the whole body, in the state of time zero; velocities are those of when they live.
-    fn seed<const D: usize>(&self, dt: f64) -> Result<Particles<D>, mpm_core::Error> {
+    fn seed<const D: usize>(&self, dt: f64) -> Result<Particles<D>, Fault> {
         let solution = self.solution.as_ref();
         let spacing = self.setup.h / self.number(PPC_PER_DIRECTION);
         let extent = solution.extent();
@@ -195,11 +195,7 @@ pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
 }
 
 /// The solver of a scene, of steps `dt` (s).
-fn solved<const D: usize, P: ParameterSet>(
-    setup: &Setup<P>,
-    scene: Scene<D>,
-    dt: f64,
-) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+fn solved<const D: usize, P: ParameterSet>(setup: &Setup<P>, scene: Scene<D>, dt: f64) -> Begun<D> {
     if let Some(settings) = setup.implicit_settings(dt) {
         return mpm_solvers::implicit(setup.scheme, scene, settings);
     }

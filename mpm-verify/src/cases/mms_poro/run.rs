@@ -32,7 +32,7 @@ impl Setup<Motion> {
     }
 
     /// The solver's law and conductivity.
-    fn own(&self) -> Result<(ImprovedHencky, Conductivity), mpm_core::Error> {
+    fn own(&self) -> Result<(ImprovedHencky, Conductivity), Fault> {
         let (porosity, kappa) = (self.porosity, self.kappa());
         let conductivity = match self.conductivity_law {
             Law::Constant => Conductivity::Constant(kappa),
@@ -121,7 +121,7 @@ impl<const D: usize> Problem<D> for Moving {
         self.setup.regular(D, self.setup.step())
     }
 
-    fn begin(&self, (): &()) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, (): &()) -> Begun<D> {
         let (m, exact, h) = (&self.setup, self.solution, self.setup.h);
         let (law, conductivity) = m.own()?;
         let grid = Grid::new(h, [Axis::walls(0.0, (1.0 / h).round() as usize); D])?;
@@ -156,7 +156,7 @@ impl<const D: usize> Problem<D> for Moving {
         mpm_solvers::poro(m.scheme, scene, water, settings)
     }
 
-    fn row(&self, (): &mut (), phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, (): &mut (), phase: &mut Phase<D>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let errors = self.errors(phase.run.as_mut());
         let run = phase.run.as_ref();

@@ -91,13 +91,13 @@ impl<const D: usize> Problem<D> for Slow<D> {
         self.0.discretisation::<D>(self.dt())
     }
 
-    fn begin(&self, _: &u64) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, _: &u64) -> Begun<D> {
         let Material { mu, lambda, .. } = self.0.solution.material();
         let scene = self.0.scene(NeoHookean { mu, lambda }, self.dt())?;
         mpm_solvers::implicit(self.0.setup.scheme, scene, Settings::new(self.dt()))
     }
 
-    fn row(&self, steps: &mut u64, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, steps: &mut u64, phase: &mut Phase<D>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         *steps += 1;
         let run = phase.run.as_ref();

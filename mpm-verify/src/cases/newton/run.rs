@@ -123,7 +123,7 @@ impl Loaded {
     }
 
     /// The column of a law at its start.
-    fn simulation(&self, law: impl Into<SharedLaw>) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn simulation(&self, law: impl Into<SharedLaw>) -> Begun<2> {
         let (h, spacing) = (self.setup.h, self.setup.pitch());
         let cells = (HEIGHT / h).round() as usize;
         let upward = if self.setup.stands() {
@@ -168,7 +168,7 @@ impl Problem<2> for Loaded {
         self.setup.regular(2, 1.0 / f64::from(self.setup.load_steps))
     }
 
-    fn begin(&self, _: &Found) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn begin(&self, _: &Found) -> Begun<2> {
         let yields = self.setup.yield_strain;
         if yields == 0.0 {
             return self.simulation(self.law);

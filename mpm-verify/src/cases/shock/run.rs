@@ -107,7 +107,7 @@ impl Problem<1> for Bar {
         self.setup.regular(1, self.dt)
     }
 
-    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
+    fn begin(&self, _: &Rows) -> Begun<1> {
         let law: SharedLaw = match self.setup.is_viscous() {
             true => Viscous::new(self.law, DENSITY, self.setup.h, self.setup.viscosity())?.into(),
             false => self.law.into(),
@@ -123,7 +123,7 @@ impl Problem<1> for Bar {
         self.setup.explicit(scene, self.dt, 0.0)
     }
 
-    fn row(&self, seen: &mut Rows, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<1>) -> Result<Row, Fault> {
         seen.sample(phase, [self.steps, ROWS.min(self.steps)], |run| {
             let totals = run.totals();
             row! {

@@ -56,7 +56,7 @@ impl Slope {
         4.0 * self.section.height / (shear_modulus / self.density).sqrt()
     }
 
-    fn law(&self, strength: Strength) -> Result<HenckyJ2, mpm_core::Error> {
+    fn law(&self, strength: Strength) -> Result<HenckyJ2, Fault> {
         HenckyJ2::new(self.young_modulus, self.poisson_ratio, strength)
     }
 }
@@ -80,7 +80,7 @@ pub(in crate::cases) struct Ground<const D: usize> {
 
 impl<const D: usize> Ground<D> {
     /// The ground of a setup, of this width (m).
-    pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, mpm_core::Error> {
+    pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, Fault> {
         let (slope, h) = (setup.slope(), setup.h);
         let number = |p| setup.values.number(p);
         let spacing = h / number(PPC_PER_DIRECTION);
@@ -105,7 +105,7 @@ impl<const D: usize> Ground<D> {
         self.slope.density * GRAVITY * self.slope.section.height
     }
 
-    fn grid(&self) -> Result<Grid<D>, mpm_core::Error> {
+    fn grid(&self) -> Result<Grid<D>, Fault> {
         let cells = |length: f64| (length / self.h - 1e-9).ceil() as usize;
         let open = |length| Axis::bounded(0.0, cells(length), (Side::Wall, Side::Open));
         let along = open(self.slope.section.toe() + self.floor);
@@ -129,7 +129,7 @@ impl<const D: usize> Ground<D> {
         setup: &Setup<P>,
         strength: Strength,
         rise: f64,
-    ) -> Result<Scene<D>, mpm_core::Error> {
+    ) -> Result<Scene<D>, Fault> {
         let particles = setup.particles_at(self.seed(), self.spacing, self.slope.density)?;
         let weight = Gravity(Box::new(move |time| {
             let mut g = [0.0; D];

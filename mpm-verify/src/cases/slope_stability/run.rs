@@ -128,7 +128,7 @@ impl Trials {
     }
 
     /// Continues to the next look; false if there is no equilibrium.
-    fn goes_on(&self, phase: &mut Phase<2>) -> Result<bool, mpm_core::Error> {
+    fn goes_on(&self, phase: &mut Phase<2>) -> Result<bool, Fault> {
         match self.setup.is_implicit() {
             true => finds_equilibrium(phase.steps(1)),
             false => phase.steps(self.steps(LOOK)).map(|()| true),
@@ -136,7 +136,7 @@ impl Trials {
     }
 
     /// A trial of ground that was at `rest` (m), with the strength of the current simulation.
-    fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, mpm_core::Error> {
+    fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, Fault> {
         let height = self.setup.height;
         let (mut moved, mut time, mut fails) = (0.0, 0.0, false);
         let looks = if self.setup.is_implicit() { STATIC_LOOKS } else { LOOKS };
@@ -182,7 +182,7 @@ impl Problem<2> for Trials {
         self.setup.regular(2, if self.setup.is_implicit() { self.setup.look() } else { self.ground.dt })
     }
 
-    fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, seen: &Seen) -> Begun<2> {
         let (setup, ground) = (&self.setup, &self.ground);
         let strength = Strength::perfect(setup.strength / seen.factor.unwrap_or(1.0))?;
         if let Some(settings) = setup.implicit_settings(setup.look()) {
@@ -198,7 +198,7 @@ impl Problem<2> for Trials {
         mpm_solvers::solver(setup.scheme, scene, setup.settings(ground.dt, damping)?)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let is_static = self.setup.is_implicit();
         let ground = match seen.ground.take() {
             Some(body) => body,

@@ -182,7 +182,7 @@ impl Clouds {
         Ok(particles)
     }
 
-    fn begin(&self, k: usize) -> Result<Box<dyn Simulation<2>>, Fault> {
+    fn begin(&self, k: usize) -> Begun<2> {
         let axis = Axis::walls(0.0, self.cells());
         let grid = Grid::new(self.setup.h, [axis, axis])?;
         let ends = [(0, End::Lo), (0, End::Hi), (1, End::Lo), (1, End::Hi)];

@@ -64,7 +64,7 @@ impl Problem<2> for Spin {
     }
 
     /// Velocities live half a step before positions.
-    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Rows) -> Begun<2> {
         let h = self.setup.h;
         let reach = (RADIUS / h).ceil() + ROOM;
         let grid = Grid::new(h, [Axis::open(-reach * h, 2 * reach as usize); 2])?;
@@ -81,7 +81,7 @@ impl Problem<2> for Spin {
         self.setup.explicit(Scene::new(grid, Bodies::new(self.law, particles)?), self.dt, 0.0)
     }
 
-    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, Fault> {
         seen.sample(phase, [self.steps, (ROWS * self.setup.turns).ceil() as u64], observe)
     }
 

@@ -197,7 +197,7 @@ impl<const D: usize> Problem<D> for Stretching {
         Discretisation { wall: "none".to_owned(), ..self.setup.discretisation(D, ppc, self.dt) }
     }
 
-    fn begin(&self, _: &Observed) -> Result<Box<dyn Simulation<D>>, Fault> {
+    fn begin(&self, _: &Observed) -> Begun<D> {
         let h = self.setup.h;
         let size = h / self.setup.ppc_per_direction as f64;
         let along = self.places();

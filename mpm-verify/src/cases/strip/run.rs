@@ -41,11 +41,11 @@ impl Setup<Strip> {
         if self.is_plastic() { self.initial_pressure } else { 0.0 }
     }
 
-    fn elasticity(&self) -> Result<ImprovedHencky, mpm_core::Error> {
+    fn elasticity(&self) -> Result<ImprovedHencky, Fault> {
         ImprovedHencky::new(self.bulk() * self.porosity, self.shear_modulus(), self.porosity)
     }
 
-    pub(super) fn clay(&self) -> Result<CamClay, mpm_core::Error> {
+    pub(super) fn clay(&self) -> Result<CamClay, Fault> {
         let clay = CamClay::new(
             self.elasticity()?,
             self.critical_ratio,
@@ -163,7 +163,7 @@ impl Setup<Strip> {
     }
 
     /// The simulation at its start.
-    fn ground<const D: usize>(&self) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn ground<const D: usize>(&self) -> Begun<D> {
         let law: SharedLaw = if self.is_plastic() { self.clay()?.into() } else { self.elasticity()?.into() };
         let (h, up) = (self.h, D - 1);
         let cells = |length: f64| (length / h).round() as usize;
@@ -264,11 +264,11 @@ impl<const D: usize> Problem<D> for Setup<Strip> {
         self.discretisation(D, PER_CELL.pow(D as u32), self.step())
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<D> {
         self.ground()
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<D>) -> Result<Row, Fault> {
         let iterations = phase.run.work().newton_iterations;
         let before = volumes(phase.run.as_ref());
         match phase.steps(1) {

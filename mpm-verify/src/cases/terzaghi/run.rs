@@ -124,7 +124,7 @@ impl Problem<1> for Setup<Terzaghi> {
         self.discretisation(1, PER_CELL, self.first_and_growth().0 * self.time_scale())
     }
 
-    fn begin(&self, _: &Seen) -> Result<Box<dyn Simulation<1>>, mpm_core::Error> {
+    fn begin(&self, _: &Seen) -> Begun<1> {
         let scene = column(self, Hencky::new(self.young_modulus, self.poisson_ratio)?)?;
         let (load, h) = (self.load, self.h);
         let top = Face::loaded(&scene.bodies.particles, topmost(h), (0, End::Hi), move |_| [-load]);
@@ -141,7 +141,7 @@ impl Problem<1> for Setup<Terzaghi> {
         mpm_solvers::poro(self.scheme, scene, water, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         if run.work().steps == 1 {

@@ -68,7 +68,7 @@ impl Problem<2> for Swing {
         self.setup.regular(2, self.dt)
     }
 
-    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Rows) -> Begun<2> {
         let h = self.setup.h;
         let cells = |length: f64| (length / h).round() as usize;
         let grid = Grid::new(
@@ -91,7 +91,7 @@ impl Problem<2> for Swing {
         self.setup.moving(scene, self.dt, 0.0)
     }
 
-    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, Fault> {
         seen.sample(phase, [self.steps, (PERIODS * ROWS) as u64], |run| {
             let totals = run.totals();
             row! {

@@ -91,7 +91,7 @@ impl Problem<2> for Translation {
         self.setup.discretisation(2, (particles as f64 / PERIOD as f64).round() as usize, self.dt)
     }
 
-    fn begin(&self, _: &Rows) -> Result<Box<dyn Simulation<2>>, mpm_core::Error> {
+    fn begin(&self, _: &Rows) -> Begun<2> {
         let (h, stretch, across) = (self.setup.h, self.setup.stretch, self.setup.ppc_per_direction);
         let grid = Grid::new(h, [Axis::periodic(0.0, PERIOD), Axis::periodic(0.0, ACROSS)])?;
         let counts = [self.setup.particles, ACROSS * across];
@@ -108,7 +108,7 @@ impl Problem<2> for Translation {
         self.setup.explicit(Scene::new(grid, Bodies::new(self.law, particles)?), self.dt, 0.0)
     }
 
-    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, mpm_core::Error> {
+    fn row(&self, seen: &mut Rows, phase: &mut Phase<2>) -> Result<Row, Fault> {
         seen.sample(phase, [self.steps, (ROWS * self.setup.cells).ceil() as u64], |run| {
             let [mean, noise] = self.stresses(run);
             let totals = run.totals();

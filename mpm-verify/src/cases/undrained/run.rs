@@ -120,7 +120,7 @@ impl Analysis for Body {
         1
     }
 
-    fn analyse(&self, _: usize) -> Result<Found, mpm_core::Error> {
+    fn analyse(&self, _: usize) -> Result<Found, Fault> {
         match self.pair {
             Pair::Linear => self.ghosted::<Hats>(),
             Pair::Gimp => self.ghosted::<Means>(),
@@ -171,13 +171,13 @@ impl Analysis for Body {
 }
 
 impl Body {
-    fn fields<I: Interpolation<2>, J: Interpolation<2>>(&self, u: &I) -> Result<[forms::Field; 2], mpm_core::Error> {
+    fn fields<I: Interpolation<2>, J: Interpolation<2>>(&self, u: &I) -> Result<[forms::Field; 2], Fault> {
         let p = J::on(self.pressure_grid)?;
         Ok([forms::Field::new(u, &self.cloud, &self.held), forms::Field::new(&p, &self.cloud, &[])])
     }
 
     /// With the ghost penalty of the displacement, of a body that fits no grid.
-    fn ghosted<I: OfHats<2>>(&self) -> Result<Found, mpm_core::Error> {
+    fn ghosted<I: OfHats<2>>(&self) -> Result<Found, Fault> {
         if self.fitted {
             return self.plain::<I, I>();
         }
@@ -188,13 +188,13 @@ impl Body {
         self.found(&fields, norm)
     }
 
-    fn plain<I: Interpolation<2>, J: Interpolation<2>>(&self) -> Result<Found, mpm_core::Error> {
+    fn plain<I: Interpolation<2>, J: Interpolation<2>>(&self) -> Result<Found, Fault> {
         let fields = self.fields::<I, J>(&I::on(self.grid)?)?;
         let norm = fields[0].laplacian(&self.cloud);
         self.found(&fields, norm)
     }
 
-    fn found(&self, [u, p]: &[forms::Field; 2], norm: DMatrix<f64>) -> Result<Found, mpm_core::Error> {
+    fn found(&self, [u, p]: &[forms::Field; 2], norm: DMatrix<f64>) -> Result<Found, Fault> {
         let singular =
             || mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0, cause: mpm_core::Cause::Unknown };
         let cloud = &self.cloud;
