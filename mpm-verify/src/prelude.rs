@@ -13,7 +13,9 @@ pub(crate) use crate::figure::{Figure, Panel, sampled};
 pub(crate) use crate::gallery::Gallery;
 pub(crate) use crate::job::{Job, Row, Snapshot, row};
 pub(crate) use crate::metric::{Metric, Sweep, error, metrics, value};
-pub(crate) use crate::parameter::{Parameter, ParameterSet, Parameters, choices, flag, parameters, real, whole};
+pub(crate) use crate::parameter::{
+    Domain, Parameter, ParameterSet, Parameters, choices, flag, number, parameters, real, whole,
+};
 pub(crate) use crate::probe::PointProbe;
 pub(crate) use crate::problem::{Begun, Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};

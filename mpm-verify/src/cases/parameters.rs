@@ -1,6 +1,5 @@
 //! Parameters shared by several problems: each is read by its constant, so that a typo does not compile.
 
-use crate::parameter::{Domain, number};
 use crate::prelude::*;
 use std::ops::RangeInclusive;
 

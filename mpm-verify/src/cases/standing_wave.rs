@@ -9,7 +9,6 @@ use crate::exact;
 use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use crate::parameter::number;
 use nalgebra::{Matrix3, Vector3};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the

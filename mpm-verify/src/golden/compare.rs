@@ -1,7 +1,5 @@
 //! Drift of a run from its golden.
 
-use super::field;
-use super::format::{Column, Golden, Point, Run};
 use super::picture::{curves, judged, write_small};
 use super::*;
 use std::collections::BTreeMap;

@@ -1,19 +1,13 @@
 //! Kept results: a row per run, from a record and back.
 
-use crate::cases;
+use super::prelude::*;
 use crate::check::Finding;
-use crate::error::Error;
 use crate::files::{read_rows, rows_text};
-use crate::night::Night;
 use crate::parameter::Parameters;
-use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Record, Status, Timing, Version, WorkDone};
-use crate::scheme::Scheme;
+use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Status, Timing, Version, WorkDone};
 use crate::spec::RunSpec;
-use crate::verdict::{Kind, Outcome, Verdict};
 use jiff::civil::Date;
 use serde::{Deserialize, Serialize};
-use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 
 /// How the status of a run that broke down begins; the time follows.
 const BROKE: &str = "failed at ";

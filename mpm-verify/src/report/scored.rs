@@ -4,23 +4,17 @@ use super::convergence::by_level;
 use super::describe::{judged, measured, run_line, verdict_line, verification, verification_json};
 use super::document::Document;
 use super::document::terminal::{aligned, cut, wrapped};
-use super::rows;
+use super::prelude::*;
 use super::tables::RESULTS;
-use super::verdicts;
 use super::words::{outcome, sentence};
-use crate::error::Error;
-use crate::files::{make_folder, write_json, write_whole};
+use super::{rows, verdicts};
+use crate::files::{make_folder, write_json};
 use crate::foreign::Asked;
-use crate::record::{Record, Status};
+use crate::record::Status;
 use crate::results::fixed;
 use crate::score::{Scored, Scores, gate::Gate};
-use crate::study::convergence::Convergence;
-use crate::study::judge::outcome_of_run;
-use crate::study::summary::CaseStudy;
-use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
 
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;

@@ -5,23 +5,15 @@
 //! may begin with its name alone.
 
 use super::document::Text;
-use super::map;
+use super::prelude::*;
 use super::speed::{self, Speed};
 use super::values::Values;
-use super::{criteria, rivals, rows, summary};
-use crate::cases;
-use crate::distinct;
-use crate::error::Error;
-use crate::files::{read_text, write_whole};
-use crate::record::Record;
+use super::{criteria, map, rivals, rows, summary};
+use crate::files::read_text;
 use crate::results::ResultTable;
 use crate::study::convergence::convergence;
-use crate::study::summary::{CaseStudy, Summary};
-use crate::table::Sheet;
 use jiff::civil::Date;
-use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
 
 const BEGIN: &str = "<!-- table ";
 const CLOSE: &str = " -->";

@@ -5,9 +5,8 @@
 //! is a ratio. The format is a number of decimals, `e` with one for a power of ten, and a `%` after it for a share
 //! in per cent, with its sign if a `+` is before it.
 
+use super::prelude::*;
 use super::rows::Row;
-use crate::error::Error;
-use crate::record::Record;
 use crate::results::{Format, fixed, percent, scientific, share};
 
 const BEGIN: &str = "<!--=";

@@ -1,13 +1,10 @@
 //! Tables in text as other programs write them: cells between commas, semicolons, tabs or blanks, with blanks and quotes
 //! about them and exponents of Fortran.
 
-use crate::error::Error;
-use crate::files::{TABLE, read as read_file};
+use super::*;
 use crate::foreign::MOST_ROWS;
-use crate::table::Table;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::collections::HashSet;
-use std::path::Path;
 
 /// Most columns of a table.
 const MOST_COLUMNS: usize = 1000;

@@ -1,19 +1,13 @@
 //! Input of a case for another code: particles, parameters, reference, and a form to fill in.
 
-use super::manifest::{FILE, SCHEMA};
-use crate::case::Case;
-use crate::error::Error;
+use super::manifest::SCHEMA;
+use super::*;
 use crate::files::{make_folder, write_csv, write_json, write_whole};
-use crate::foreign::{Foreign, Group, Part};
-use crate::parameter::{Parameter, Parameters};
-use crate::record::Measured;
-use crate::record::Record;
-use crate::spec::RunSpec;
-use crate::table::{Sheet, Table};
-use crate::verdict::{Kind, Verdict};
+use crate::foreign::Group;
+use crate::parameter::Parameter;
+use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::Path;
 
 /// The problems in words, a section a case.
 const PROBLEMS: &str = include_str!("../../assets/problems.md");

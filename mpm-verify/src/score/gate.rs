@@ -1,10 +1,8 @@
 //! Whether a result passes as a gate of continuous integration: what must be judged, beside what must not fail.
 
-use super::{Judged, Scores};
-use crate::case::Case;
+use super::*;
 use crate::distinct;
-use crate::error::{Error, ExitCode};
-use crate::verdict::{Kind, Outcome, Verdict};
+use crate::error::ExitCode;
 
 /// Reason of a demanded check of which there is no verdict.
 pub(crate) const INAPPLICABLE: &str = "it does not apply to this result";

@@ -5,7 +5,6 @@
 mod run;
 
 use crate::cases::prelude::*;
-use crate::parameter::Domain;
 use crate::problem::begin;
 use run::{PERIOD, Trials};
 

@@ -7,7 +7,6 @@ mod scene;
 
 use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
-use crate::parameter::number;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 

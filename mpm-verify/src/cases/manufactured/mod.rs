@@ -15,7 +15,6 @@ pub(super) mod tables;
 use super::parameters;
 use crate::cases::prelude::*;
 use crate::exact;
-use crate::parameter::{Domain, number};
 use crate::problem;
 pub(super) use checks::*;
 pub(super) use metrics::*;

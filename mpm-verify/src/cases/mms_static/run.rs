@@ -1,13 +1,9 @@
 //! Solution and simulation of the slow vortex, load step by load step.
 
 use super::*;
-use crate::cases::manufactured::{
-    DURATION, Known, Own, PPC_PER_DIRECTION, Scenario, Solution, errors, set_defaults, vector,
-};
 use crate::exact::common::ANGULAR_FREQUENCY;
 use crate::exact::twist::ANGLE;
 use crate::exact::{self, swirl, vortex_pressure};
-use crate::parameter::{Domain, number};
 use crate::problem;
 use mpm_core::implicit::Settings;
 

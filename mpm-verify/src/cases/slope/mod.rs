@@ -4,7 +4,6 @@ pub(super) mod ground;
 pub(super) mod section;
 
 use crate::cases::prelude::*;
-use crate::parameter::{Domain, number};
 use section::Section;
 
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("25e6").within(number(1e3, 1e12, false));

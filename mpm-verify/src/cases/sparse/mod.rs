@@ -7,7 +7,6 @@ mod run;
 
 use super::analysis::case_of;
 use crate::cases::prelude::*;
-use crate::parameter::Domain;
 
 choices! {
     /// Arrangement of the particles.

@@ -6,7 +6,6 @@ mod run;
 
 use crate::cases::prelude::*;
 use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
-use crate::parameter::number;
 
 /// Relative difference of a beam's frequency by how its sections shear.
 const SECTIONS: f64 = 2e-3;
