@@ -4,9 +4,7 @@
 
 use super::manufactured::foreign::{TIME, gaps_of_rest, of_rest};
 use super::manufactured::*;
-use super::parameters::DENSITY;
 use crate::cases::prelude::*;
-use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::{ENTRY, HEIGHT};
 use crate::foreign::Foreign;
 

@@ -3,10 +3,8 @@
 //! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
 use super::manufactured::*;
-use super::parameters::DYNAMIC;
 use crate::cases::prelude::*;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
-use crate::exact::common::AMPLITUDE;
 
 #[derive(Debug, Clone)]
 struct Axes;

@@ -3,7 +3,6 @@
 //! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
 use super::manufactured::*;
-use super::parameters::POISSON_RATIO;
 use crate::cases::prelude::*;
 use crate::exact::swirl::ENTRY;
 

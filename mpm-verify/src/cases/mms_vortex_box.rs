@@ -3,7 +3,6 @@
 //! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
 use super::manufactured::*;
-use super::parameters::{DYNAMIC, POISSON_RATIO};
 use crate::cases::prelude::*;
 use crate::exact::vortex_box::ENTRY;
 

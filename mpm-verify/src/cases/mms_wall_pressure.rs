@@ -4,9 +4,7 @@
 //! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
 use super::manufactured::*;
-use super::parameters::DYNAMIC;
 use crate::cases::prelude::*;
-use crate::exact::common::AMPLITUDE;
 use crate::exact::wall_pressure::ENTRY;
 
 #[derive(Debug, Clone)]

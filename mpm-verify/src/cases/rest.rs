@@ -3,9 +3,7 @@
 //! Set-up, choices and tolerances: `docs/rest.md`.
 
 use super::manufactured::*;
-use super::parameters::{DENSITY, POISSON_RATIO, WALL, WALL_LINE, YOUNG_MODULUS};
 use crate::cases::prelude::*;
-use crate::exact::common::GRAVITY;
 use crate::exact::incline::{ENTRY, INCLINATION, THICKNESS};
 
 const HUNDRED_THOUSAND: &str = "duration=20";

@@ -3,10 +3,9 @@
 //! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
 use super::manufactured::*;
-use super::parameters::{DENSITY, DYNAMIC, FLIP, WALL, WALL_LINE};
+use super::parameters::FLIP;
 use crate::cases::prelude::*;
 use crate::exact;
-use crate::exact::common::GRAVITY;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
 use nalgebra::{Matrix3, Vector3};

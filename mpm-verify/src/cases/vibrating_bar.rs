@@ -4,10 +4,8 @@
 
 use super::manufactured::foreign::{TIME, gaps_of_wave, of_wave};
 use super::manufactured::*;
-use super::parameters::{ALPHA, DELTA, DYNAMIC, LUMPED};
 use crate::cases::prelude::*;
 use crate::exact;
-use crate::exact::common::AMPLITUDE;
 use crate::exact::vibrating_bar::{ENDS, ENTRY, VibratingBar};
 use crate::foreign::Foreign;
 

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group};
-use crate::parameter::ParameterSet;
 use crate::sampled::{Sampled, uncovered};
 
 const TIME: Asked = Asked::series(

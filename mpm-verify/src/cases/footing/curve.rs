@@ -1,6 +1,5 @@
 //! The load over the penetration and the motion of the surface, and what is measured of them, whoever computed them.
 
-use super::reference::EXACT;
 use super::*;
 
 /// The part of the surface (m from the axis) that is well inside of what Prandtl's mechanism pushes up.

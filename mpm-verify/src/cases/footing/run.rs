@@ -1,7 +1,6 @@
 //! Derived quantities, scene and observations of the footing.
 
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
-use super::reference::EXACT;
 use super::*;
 use crate::cases::observe::mean_stress;
 use crate::statistics::{checkerboard, oscillation};

@@ -13,8 +13,12 @@ mod sketch;
 pub(super) mod tables;
 
 use super::parameters;
+pub(super) use super::parameters::{
+    ALPHA, DELTA, DENSITY, DYNAMIC, LUMPED, POISSON_RATIO, UNSEEN, WALL, WALL_LINE, YOUNG_MODULUS,
+};
 use crate::cases::prelude::*;
 use crate::exact;
+pub(super) use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
 use crate::problem;
 pub(super) use checks::*;
 pub(super) use metrics::*;

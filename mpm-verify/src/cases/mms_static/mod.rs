@@ -5,13 +5,12 @@
 mod run;
 
 use super::manufactured::*;
-use super::parameters::{self, POISSON_RATIO, UNSEEN};
 use crate::cases::prelude::*;
 use crate::exact::vortex_pressure::PRESSURE;
 use crate::results::Format;
 use run::SlowVortex;
 
-const LOAD_STEPS: Parameter = parameters::LOAD_STEPS.meaning("quasi-static: equal steps of time");
+const LOAD_STEPS: Parameter = common::LOAD_STEPS.meaning("quasi-static: equal steps of time");
 const SOFT: &str = "poisson_ratio=0.3";
 const PRESSED: &str = "pressure=100";
 /// Poisson's ratios of the tables.

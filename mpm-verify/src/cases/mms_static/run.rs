@@ -1,7 +1,6 @@
 //! Solution and simulation of the slow vortex, load step by load step.
 
 use super::*;
-use crate::exact::common::ANGULAR_FREQUENCY;
 use crate::exact::twist::ANGLE;
 use crate::exact::{self, swirl, vortex_pressure};
 use crate::problem;
