@@ -61,8 +61,7 @@ fn plan() -> Plan {
         .runs(Nightly, FOUR, &other_transfers(), "")
         .each(Nightly, THREE, &main_pairs(), MORE)
         .runs(Nightly, THREE, &all, "poisson_ratio=0.3")
-        .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.49")
-        .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.499")
+        .each(Nightly, "n8 n16", &few, ["poisson_ratio=0.49", "poisson_ratio=0.499"])
 }
 
 fn claim(r: &Setup<()>) -> Claim {

@@ -127,8 +127,7 @@ pub(super) fn case() -> Case {
     let steps: Label = ("CFL", |r| r.parameters.text(CFL));
     let plan = Plan::of(metre_levels()[..2].to_vec())
         .runs(Pr, "n8", &all, "")
-        .runs(Nightly, "n8 n16", &all, "")
-        .runs(Nightly, "n8 n16", &all, TWENTY_PERIODS)
+        .each(Nightly, "n8 n16", &all, ["", TWENTY_PERIODS])
         .runs(Pr, "n8", &held, HELD)
         .runs(Nightly, "n8 n16", &held, HELD)
         .each(Nightly, "n8 n16", &moved, ["cfl=10 duration=24", "cfl=40 duration=24"]);

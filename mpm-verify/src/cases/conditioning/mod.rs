@@ -73,12 +73,9 @@ fn plan() -> Plan {
     let [two, equal] = [TwoGrid, Equal].map(|space| [Gimp, Linear].map(|basis| Scheme::poro(basis, space)));
     Plan::of(LEVELS)
         .runs(Quick, "h0.1", &two[..1], "positions=8")
-        .runs(Pr, "h0.1", &two, "")
-        .runs(Pr, "h0.1", &two, "alpha=0")
+        .each(Pr, "h0.1", &two, ["", "alpha=0"])
         .runs(Nightly, "h0.1", &equal, "")
-        .runs(Nightly, "h0.1", &two, "pressure_ghost=storage")
-        .runs(Nightly, "h0.1", &two, "mobility=1")
-        .runs(Nightly, "h0.1", &two, "alpha=0 mobility=1")
+        .each(Nightly, "h0.1", &two, ["pressure_ghost=storage", "mobility=1", "alpha=0 mobility=1"])
         .each(Nightly, "h0.1", &two, ["alpha=0.001", "alpha=0.01", "alpha=1", "alpha=10"])
 }
 

@@ -166,15 +166,11 @@ fn plan() -> Plan {
         .runs(Quick, "h0.05", &both[..1], "step_factor=100")
         .runs(Pr, "h0.05", &both, "step_factor=100")
         .runs(Pr, "h0.05", &[plain(Gimp, Apic)], "offset=0.1")
-        .runs(Pr, "h0.05", &explicit[1..], "offset=0.4")
-        .runs(Pr, "h0.05", &explicit[1..], "contact=bodies offset=0.5 speed=0.1")
+        .each(Pr, "h0.05", &explicit[1..], ["offset=0.4", "contact=bodies offset=0.5 speed=0.1"])
         .runs(Pr, "h0.05", &explicit[..1], "contact=bodies speed=0.1")
         .runs(Pr, "h0.05", &[plain(Linear, Musl)], "offset=0.65")
-        .runs(Nightly, "h0.05 h0.025", &all, "")
-        .runs(Nightly, "h0.05 h0.025", &all, "offset=0.4")
-        .runs(Nightly, "h0.05", &both, "offset=0.1 step_factor=100")
-        .runs(Nightly, "h0.05", &both, "step_factor=10")
-        .runs(Nightly, "h0.05", &both, "offset=0.1 step_factor=10")
+        .each(Nightly, "h0.05 h0.025", &all, ["", "offset=0.4"])
+        .each(Nightly, "h0.05", &both, ["offset=0.1 step_factor=100", "step_factor=10", "offset=0.1 step_factor=10"])
         .runs(Nightly, "h0.05", &both, "")
         .runs(Nightly, "h0.025", &both, "step_factor=100")
         // The speed of the paper's Figure 5, and steps as long as the contact.
@@ -185,8 +181,7 @@ fn plan() -> Plan {
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")))
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")))
         .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"])
-        .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0"])
-        .each(Nightly, "h0.05", &blended, ["flip=0.99 offset=0.1", "flip=0 offset=0.1"])
+        .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0", "flip=0.99 offset=0.1", "flip=0 offset=0.1"])
         .each(
             Nightly,
             "h0.05",

@@ -95,8 +95,7 @@ fn plan() -> Plan {
         .runs(Pr, THREE, averaged, SOFT)
         .runs(Pr, "n8 n16", &few, SOFT)
         .runs(Pr, "n8", averaged, PRESSED)
-        .runs(Nightly, THREE, &all, "")
-        .runs(Nightly, THREE, &all, SOFT)
+        .each(Nightly, THREE, &all, ["", SOFT])
         .each(Nightly, THREE, &all, ratios)
         .each(Nightly, "n8 n16", &all, near)
         .runs(Nightly, THREE, &all, "load_steps=1")
@@ -105,8 +104,7 @@ fn plan() -> Plan {
         // Another pressure, as the body is softer: no pair for the check of locking, whose motion mustn't depend on ν.
         .runs(Nightly, THREE, &all, "poisson_ratio=0.3 pressure=20")
         .runs(Nightly, THREE, &few, "ppc_per_direction=4")
-        .runs(Nightly, "n8", &few, "dimension=3")
-        .runs(Nightly, "n8", &few, "dimension=3 poisson_ratio=0.3")
+        .each(Nightly, "n8", &few, ["dimension=3", "dimension=3 poisson_ratio=0.3"])
 }
 
 /// Errors relative to the motion over the cells, and the error of the mean stress, of runs that change `set`.

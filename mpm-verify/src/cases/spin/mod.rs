@@ -111,12 +111,10 @@ fn plan() -> Plan {
         .runs(Quick, "r4", &blended[..1], "")
         .runs(Pr, "r4", &alive, "")
         .runs(Pr, "r4 r8", &alive, "turns=2")
-        .runs(Nightly, "r4 r8", &all, "turns=2")
-        .runs(Nightly, "r4 r8", &all, "")
+        .each(Nightly, "r4 r8", &all, ["turns=2", ""])
         .runs(Nightly, "r4", &all, "turns=100")
         .runs(Nightly, "r4 r8", &smooth, "time_step=auto turns=2")
-        .runs(Pr, "r4", &blended, "flip=0.99")
-        .runs(Pr, "r4", &blended, "flip=0")
+        .each(Pr, "r4", &blended, ["flip=0.99", "flip=0"])
 }
 
 fn sketch() -> Sketch {

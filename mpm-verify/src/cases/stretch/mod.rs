@@ -93,15 +93,12 @@ fn plan() -> Plan {
         .runs(Pr, "n8", &all, "end=0.05")
         .runs(Pr, "n8", &slow, "end=0.05")
         // Steps that the waves of the deformed body outrun.
-        .runs(Pr, "n8", &plain, "cfl=0.4")
-        .runs(Pr, "n8", &plain, "cfl=0.55 end=0.05")
+        .each(Pr, "n8", &plain, ["cfl=0.4", "cfl=0.55 end=0.05"])
         .runs(Nightly, "n8", &slow, "")
         .runs(Pr, "n8", &plain[1..2], PLANE)
         .runs(Nightly, "n8", &all, PLANE)
         .runs(Nightly, "n8", &transfers, PLANE)
-        .runs(Nightly, "n8", &plain, "cfl=0.7 dimension=2 end=0.2236")
-        .runs(Nightly, "n8", &plain, "ppc_per_direction=4")
-        .runs(Nightly, "n8", &plain, "speed=0.005")
+        .each(Nightly, "n8", &plain, ["cfl=0.7 dimension=2 end=0.2236", "ppc_per_direction=4", "speed=0.005"])
 }
 
 fn sketch() -> Sketch {

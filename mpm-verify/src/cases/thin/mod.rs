@@ -94,10 +94,8 @@ fn plan() -> Plan {
         // One cell of quadratic splines, and any of cubic ones, has more functions than particles to give them a mass.
         .runs(Pr, "t2", &splines, consistent)
         .runs(Pr, "t1 t2", &pairs(&[Linear, Gimp, Bspline2], &plain), "shift=0.5")
-        .runs(Nightly, "t1 t2 t4", &all, "")
-        .runs(Nightly, "t1 t2 t4", &all, "poisson_ratio=0.49")
-        .runs(Nightly, "t1 t2", &all, "ppc_per_direction=4")
-        .runs(Nightly, "t1 t2", &all, "shift=0.5")
+        .each(Nightly, "t1 t2 t4", &all, ["", "poisson_ratio=0.49"])
+        .each(Nightly, "t1 t2", &all, ["ppc_per_direction=4", "shift=0.5"])
         .runs(Nightly, "t1 t2 t4", &linear, consistent)
         .runs(Nightly, "t2 t4", &splines, consistent)
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]), "cfl=5")

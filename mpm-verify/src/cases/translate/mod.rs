@@ -82,8 +82,7 @@ fn plan() -> Plan {
         .runs(Quick, "n8", &plain[1..2], "cells=10")
         .runs(Pr, "n8", &all, "")
         .runs(Pr, "n8", &plain, "stretch=1.02")
-        .runs(Nightly, "n8", &all, "stretch=1.02")
-        .runs(Nightly, "n8", &all, "speed=0.1")
+        .each(Nightly, "n8", &all, ["stretch=1.02", "speed=0.1"])
         .runs(Nightly, "n8", &offered, "time_step=auto")
 }
 
