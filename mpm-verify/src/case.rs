@@ -146,6 +146,16 @@ pub struct Case {
     pub breaks_down: fn(&Record) -> Option<&'static str>,
 }
 
+/// Functions that set a field each, by field and type.
+macro_rules! setters {
+    ($($(#[$doc:meta])* $field:ident: $kind:ty;)*) => {
+        $($(#[$doc])*
+        pub(crate) fn $field(self, $field: $kind) -> Self {
+            Self { $field, ..self }
+        })*
+    };
+}
+
 impl Case {
     /// A case of the problem `P` in `D` dimensions, by name, title and metrics, with nothing else.
     pub(crate) fn of<const D: usize, P: Problem<D> + 'static>(
@@ -218,11 +228,6 @@ impl Case {
         self
     }
 
-    /// Replaces all references.
-    pub(crate) fn references(self, references: Vec<String>) -> Self {
-        Self { references, ..self }
-    }
-
     /// Adds a limit: a claim that the case does not support.
     pub(crate) fn limit(mut self, limit: &'static str) -> Self {
         self.limits.push(limit);
@@ -262,25 +267,10 @@ impl Case {
         Self { wanted: Vec::new(), headlines: Vec::new(), quantities: Vec::new(), ..self }
     }
 
-    /// With other metrics.
-    pub(crate) fn metrics(self, metrics: Vec<Metric>) -> Self {
-        Self { metrics, ..self }
-    }
-
-    /// With these checks.
-    pub(crate) fn checks(self, checks: Vec<Check>) -> Self {
-        Self { checks, ..self }
-    }
-
     /// Adds a column of the table of results: see [`headline`].
     pub(crate) fn headline(mut self, metric: Metric, title: &str, factor: f64, decimals: usize) -> Self {
         self.headlines.push(headline(metric, title, factor, decimals));
         self
-    }
-
-    /// Replaces all columns of the table of results.
-    pub(crate) fn headlines(self, headlines: Vec<Column>) -> Self {
-        Self { headlines, ..self }
     }
 
     /// Adds a quantity whose convergence is studied.
@@ -289,30 +279,10 @@ impl Case {
         self
     }
 
-    /// Replaces all quantities whose convergence is studied.
-    pub(crate) fn quantities(self, quantities: Vec<Quantity>) -> Self {
-        Self { quantities, ..self }
-    }
-
     /// Adds a parameter over whose values the errors are drawn.
     pub(crate) fn sweep(mut self, sweep: Sweep) -> Self {
         self.sweeps.push(sweep);
         self
-    }
-
-    /// With these columns of the time series for a first look.
-    pub(crate) fn watched(self, watched: &'static [&'static str]) -> Self {
-        Self { watched, ..self }
-    }
-
-    /// With a particle field that is kept among the goldens.
-    pub(crate) fn field(self, field: Option<FieldView>) -> Self {
-        Self { field, ..self }
-    }
-
-    /// With a sketch of the geometry.
-    pub(crate) fn sketch(self, sketch: Sketch) -> Self {
-        Self { sketch, ..self }
     }
 
     /// With the relative cost of a run.
@@ -320,24 +290,9 @@ impl Case {
         Self { cost: Box::new(cost), ..self }
     }
 
-    /// With the parameters at which schemes are run at the most levels.
-    pub(crate) fn ladder(self, ladder: &'static [&'static str]) -> Self {
-        Self { ladder, ..self }
-    }
-
-    /// With the runs that stand for its own: see [`Case::own_runs`].
-    pub(crate) fn own_runs(self, own_runs: fn(&[Record]) -> Vec<&Record>) -> Self {
-        Self { own_runs, ..self }
-    }
-
     /// With another beginning of a run.
     pub(crate) fn begun(self, begin: impl Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Held) -> Self {
         Self { begin: Box::new(begin), ..self }
-    }
-
-    /// With pictures of its own.
-    pub(crate) fn pictures(self, pictures: fn(&mut Gallery) -> Result<(), Error>) -> Self {
-        Self { pictures, ..self }
     }
 
     /// Adds a table of its results.
@@ -346,14 +301,33 @@ impl Case {
         self
     }
 
-    /// With tables of its results.
-    pub(crate) fn tables(self, tables: Vec<ResultTable>) -> Self {
-        Self { tables, ..self }
-    }
-
-    /// With reasons why a run is known to break down before its end.
-    pub(crate) fn breaks_down(self, breaks_down: fn(&Record) -> Option<&'static str>) -> Self {
-        Self { breaks_down, ..self }
+    setters! {
+        /// Replaces all references.
+        references: Vec<String>;
+        /// With other metrics.
+        metrics: Vec<Metric>;
+        /// With these checks.
+        checks: Vec<Check>;
+        /// Replaces all columns of the table of results.
+        headlines: Vec<Column>;
+        /// Replaces all quantities whose convergence is studied.
+        quantities: Vec<Quantity>;
+        /// With these columns of the time series for a first look.
+        watched: &'static [&'static str];
+        /// With a particle field that is kept among the goldens.
+        field: Option<FieldView>;
+        /// With a sketch of the geometry.
+        sketch: Sketch;
+        /// With the parameters at which schemes are run at the most levels.
+        ladder: &'static [&'static str];
+        /// With the runs that stand for its own: see [`Case::own_runs`].
+        own_runs: fn(&[Record]) -> Vec<&Record>;
+        /// With pictures of its own.
+        pictures: fn(&mut Gallery) -> Result<(), Error>;
+        /// With tables of its results.
+        tables: Vec<ResultTable>;
+        /// With reasons why a run is known to break down before its end.
+        breaks_down: fn(&Record) -> Option<&'static str>;
     }
 
     /// Verdicts on a run that has come to its end, those on its wanted quantities first.

@@ -171,15 +171,20 @@ enum Subject<P> {
     Run(Vec<Demand<P>>),
     /// The observed order of a metric over the runs of each scheme: name, metric, and the formal order.
     Order { name: Of<P, String>, metric: Metric, over: Over, formal: f64 },
-    /// A number of two runs: the partner of the first, the number by name, and its demand on the first run.
-    Pair { partner: PartnerOf<P>, name: PairName<P>, value: PairValue<P>, bound: Bound<P> },
+    /// A number of two runs, and its demand on the first.
+    Pair(Pair<P>, Bound<P>),
     /// Findings of a function of its own, of one run.
     Own(Of<P, Vec<Finding>>),
 }
 
-type PartnerOf<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> bool + Send + Sync>;
-type PairName<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> String + Send + Sync>;
-type PairValue<P> = Box<dyn Fn(&Run<P>, &Run<P>) -> f64 + Send + Sync>;
+type OfTwo<P, T> = Box<dyn Fn(&Run<P>, &Run<P>) -> T + Send + Sync>;
+
+/// A number of two runs: the partner of the first, and the number by name.
+struct Pair<P> {
+    partner: OfTwo<P, bool>,
+    name: OfTwo<P, String>,
+    value: OfTwo<P, f64>,
+}
 
 /// A check of a case with the parameters `P`, under construction.
 pub(crate) struct CheckOf<P> {
@@ -291,9 +296,14 @@ impl<P: ParameterSet> CheckOf<P> {
         self
     }
 
-    /// Each run that passes `when` beside the first other run that is its `partner`.
-    pub(crate) fn pairs(self, partner: impl Fn(&Run<P>, &Run<P>) -> bool + Held) -> PairsOf<P> {
-        PairsOf { check: self, partner: Box::new(partner) }
+    /// A number, by name and value, of each run that passes `when` and the first other run that is its `partner`.
+    pub(crate) fn pairs(
+        self,
+        partner: impl Fn(&Run<P>, &Run<P>) -> bool + Held,
+        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
+        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
+    ) -> PairsOf<P> {
+        PairsOf { check: self, pair: Pair { partner: Box::new(partner), name: Box::new(name), value: Box::new(value) } }
     }
 
     /// Findings of a function on one run, with their sources.
@@ -340,14 +350,14 @@ impl<P: ParameterSet> CheckOf<P> {
                 let why = (self.why)(&run);
                 demands.iter().filter_map(|d| d.finding(&run, &why)).map(|f| self.scaled(f, &run)).collect()
             }
-            Subject::Order { .. } | Subject::Pair { .. } => Vec::new(),
+            Subject::Order { .. } | Subject::Pair(..) => Vec::new(),
         }
     }
 
     fn of_study(&self, records: &[Record]) -> Vec<Finding> {
         match &self.subject {
             Subject::Order { name, metric, over, formal } => self.orders(records, (name, *metric), (*over, *formal)),
-            Subject::Pair { partner, name, value, bound } => self.pair(records, (partner, name), (value, bound)),
+            Subject::Pair(pair, bound) => self.pair(records, pair, bound),
             Subject::Own(_) | Subject::Run(_) => Vec::new(),
         }
     }
@@ -387,16 +397,11 @@ impl<P: ParameterSet> CheckOf<P> {
         found.collect()
     }
 
-    fn pair(
-        &self,
-        records: &[Record],
-        (partner, name): (&PartnerOf<P>, &PairName<P>),
-        (value, bound): (&PairValue<P>, &Bound<P>),
-    ) -> Vec<Finding> {
+    fn pair(&self, records: &[Record], pair: &Pair<P>, bound: &Bound<P>) -> Vec<Finding> {
         let all: Vec<Run<P>> = Run::all(records).collect();
         let found = self.runs(records).into_iter().filter_map(|run| {
-            let other = all.iter().find(|other| partner(&run, other))?;
-            let (name, value, why) = (name(&run, other), value(&run, other), (self.why)(&run));
+            let other = all.iter().find(|other| (pair.partner)(&run, other))?;
+            let (name, value, why) = ((pair.name)(&run, other), (pair.value)(&run, other), (self.why)(&run));
             Some(self.scaled(bound.finding(name, value, &run, why), &run))
         });
         found.collect()
@@ -406,50 +411,32 @@ impl<P: ParameterSet> CheckOf<P> {
 /// A check on pairs of runs, under construction.
 pub(crate) struct PairsOf<P> {
     check: CheckOf<P>,
-    partner: PartnerOf<P>,
+    pair: Pair<P>,
 }
 
 impl<P: ParameterSet> PairsOf<P> {
-    fn bound(
-        self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
-        bound: Bound<P>,
-    ) -> CheckOf<P> {
-        let (partner, name, value) = (self.partner, Box::new(name), Box::new(value));
-        CheckOf { subject: Subject::Pair { partner, name, value, bound }, ..self.check }
+    fn bound(self, bound: Bound<P>) -> CheckOf<P> {
+        CheckOf { subject: Subject::Pair(self.pair, bound), ..self.check }
     }
 
-    /// value ≤ bound, by the name, the value of run and partner, and the bound of the run.
-    pub(crate) fn at_most(
-        self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
-        bound: impl Fn(&Run<P>) -> f64 + Held,
-    ) -> CheckOf<P> {
-        self.bound(name, value, Bound::AtMost(Box::new(bound)))
+    /// value ≤ bound of the first run.
+    pub(crate) fn at_most(self, bound: impl Fn(&Run<P>) -> f64 + Held) -> CheckOf<P> {
+        self.bound(Bound::AtMost(Box::new(bound)))
     }
 
-    /// value > bound.
-    pub(crate) fn above(
-        self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
-        bound: impl Fn(&Run<P>) -> f64 + Held,
-    ) -> CheckOf<P> {
-        self.bound(name, value, Bound::Above(Box::new(bound)))
+    /// value > bound of the first run.
+    pub(crate) fn above(self, bound: impl Fn(&Run<P>) -> f64 + Held) -> CheckOf<P> {
+        self.bound(Bound::Above(Box::new(bound)))
     }
 
-    /// |value − reference| ≤ tolerance.
+    /// |value − reference| ≤ tolerance, both of the first run.
     pub(crate) fn within(
         self,
-        name: impl Fn(&Run<P>, &Run<P>) -> String + Held,
-        value: impl Fn(&Run<P>, &Run<P>) -> f64 + Held,
         reference: impl Fn(&Run<P>) -> f64 + Held,
         tolerance: impl Fn(&Run<P>) -> f64 + Held,
     ) -> CheckOf<P> {
         let (reference, tolerance) = (Box::new(reference), Box::new(tolerance));
-        self.bound(name, value, Bound::Within { reference, tolerance })
+        self.bound(Bound::Within { reference, tolerance })
     }
 }
 

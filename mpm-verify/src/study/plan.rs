@@ -64,6 +64,11 @@ pub struct PlannedRun {
 }
 
 impl PlannedRun {
+    /// Made by the first shard.
+    fn of(case: &Case, scheme: Scheme, level: &Level, set: Vec<String>) -> Self {
+        Self { case: case.name.to_owned(), scheme, level: level.name.to_owned(), set, shard: 1 }
+    }
+
     /// Folder of the run's outputs below that of the report.
     #[must_use]
     pub fn folder(&self) -> PathBuf {
@@ -108,14 +113,8 @@ impl Plan {
     /// # Errors
     /// A run is there twice.
     pub fn sweep(case: &Case, schemes: &[Scheme], levels: &[Level], set: &[String]) -> Result<Self, Error> {
-        let run = |(scheme, level): (&Scheme, &Level)| PlannedRun {
-            case: case.name.to_owned(),
-            scheme: *scheme,
-            level: level.name.to_owned(),
-            set: set.to_vec(),
-            shard: 1,
-        };
-        let runs = schemes.iter().flat_map(|scheme| levels.iter().map(move |level| run((scheme, level)))).collect();
+        let of = |scheme| levels.iter().map(move |level| PlannedRun::of(case, scheme, level, set.to_vec()));
+        let runs = schemes.iter().copied().flat_map(of).collect();
         let plan = Self { schema: SCHEMA, tier: SWEEP.to_owned(), shard: Shard::WHOLE, runs };
         plan.check().map_err(Error::Input)?;
         Ok(plan)
@@ -131,13 +130,7 @@ impl Plan {
         for case in cases {
             for spec in case.runs(tier) {
                 costs.push((case.cost)(&spec));
-                runs.push(PlannedRun {
-                    case: case.name.to_owned(),
-                    scheme: spec.scheme,
-                    level: spec.level.name.to_owned(),
-                    set: spec.set,
-                    shard: 0,
-                });
+                runs.push(PlannedRun::of(case, spec.scheme, &spec.level, spec.set));
             }
         }
         if runs.len() < shard.count {
