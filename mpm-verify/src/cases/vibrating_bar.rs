@@ -237,18 +237,20 @@ fn checks() -> Vec<Check> {
         Gate::truth("averaging-softens", "squared frequency over that without remedy: 1 − ¼ (kh)² (fbar-total, fbar-rate), 1 − 0.064 (kh)² (fbar-consistent; bspline2 1), within (kh)³/2π")
             .when(|r| is_sound(r.remedy()) && !feeds_null_space(r) && softening(r.basis(), r.remedy()).is_some())
             .pairs(
-|soft, hard| same_but_scheme(soft, hard) && hard.remedy() == RemedyName::None && hard.basis() == soft.basis(),
+                |soft, hard| same_but_scheme(soft, hard) && hard.remedy() == RemedyName::None && hard.basis() == soft.basis(),
                 |soft, _| format!("(frequency of {} over that of none)² at {}", soft.scheme, soft.level),
                 |soft, hard| {
                     let found = soft.metric(FREQUENCY_RATIO) / hard.metric(FREQUENCY_RATIO);
                     found * found
                 },
-)
-.within(                |r| {
+            )
+            .within(
+                |r| {
                     let (kh, softening) = (resolution(r), softening(r.basis(), r.remedy()));
                     1.0 - softening.unwrap_or(f64::NAN) * kh * kh
                 },
-                |r| 0.5 * resolution(r).powi(3) / PI)
+                |r| 0.5 * resolution(r).powi(3) / PI,
+            )
             .because("dispersion of the average, docs/modes.md; in the cells next to the walls, 2kh/π of the bar, it may be off by all of ¼ (kh)²"),
     ];
     checks.extend(orders(ORDERS));

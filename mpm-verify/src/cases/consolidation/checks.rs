@@ -53,11 +53,11 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("small-load", "0.003 M₀, no particle crosses a cell: linear functions and GIMP differ by at most 2 q/M₀, the reach of domains into the next cell")
             .when(|c| c.basis() == Linear && c.record.status == Status::Ok && c.load == SMALL)
             .pairs(
-|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()),
+                |c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()),
                 |c, _| format!("difference of {} of {} {} and gimp", SETTLEMENT_ERROR.name, c.scheme, c.level),
                 |c, other| (c.metric(SETTLEMENT_ERROR) - other.metric(SETTLEMENT_ERROR)).abs(),
-)
-.at_most(                |_| 2.0 * SMALL)
+            )
+            .at_most(|_| 2.0 * SMALL)
             .because("a mean of a hat over a domain within its cell is the hat at the middle"),
     ]
 }

@@ -419,11 +419,11 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
         Check::known_limit("creep-grows-as-dt-falls", "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)")
             .when(|c| c.is_default())
             .pairs(
-|c, other| other.set == ["cfl=0.15"] && other.scheme == c.scheme && other.level == c.level,
+                |c, other| other.set == ["cfl=0.15"] && other.scheme == c.scheme && other.level == c.level,
                 |c, _| format!("creep_rate of {} {}", c.scheme, c.level),
                 |c, halved| halved.metric(CREEP_RATE) / c.metric(CREEP_RATE),
-)
-.above(                |_| FASTER)
+            )
+            .above(|_| FASTER)
             .because("the diffusivity of Eq. (26) is ½ s² h²/Δt: twice as fast in the bulk, √2 times where it enters at a boundary"),
         Check::truth("error-falls", "all but fbar-recursive: |error| of mid-edge u_y falls from level to level or stays below 0.2 %, quasi-static F̄ with the load in its place")
             .study(error_falls),

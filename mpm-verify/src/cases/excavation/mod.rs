@@ -246,15 +246,14 @@ fn checks() -> Vec<Check> {
         Check::truth("peak-does-not-fail", "rough base: the cut slope stands at the peak strength without softening, and does not with it")
             .when(|c| c.record.status == Status::Ok && c.changes_none_but(&["residual"]) && !c.softens())
             .pairs(
-|perfect, own| {
-                let alike = own.record.status == Status::Ok && own.is_default() && own.scheme == perfect.scheme && own.level == perfect.level;
-                alike && !own.is_static() && !(own.metric(STANDS_CUT) + perfect.metric(STANDS_CUT)).is_nan()
-            },
+                |perfect, own| {
+                    let alike = own.record.status == Status::Ok && own.is_default() && own.scheme == perfect.scheme && own.level == perfect.level;
+                    alike && !own.is_static() && !(own.metric(STANDS_CUT) + perfect.metric(STANDS_CUT)).is_nan()
+                },
                 |_, _| STANDS_CUT.name.to_owned(),
                 |perfect, own| perfect.metric(STANDS_CUT) - own.metric(STANDS_CUT),
-)
-.within(                |_| 1.0,
-                |_| 0.0)
+            )
+            .within(|_| 1.0, |_| 0.0)
             .because_of(|c| format!("{} {}", c.scheme, c.level)),
         Check::known_limit("run-out-by-level", "rough base, softening: run-outs of two levels differ by more than a hundredth, as softening has no length scale")
             .study(differs_by_level),

@@ -297,21 +297,13 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
         // Faster runs than the case's own ring: they are there to show it.
         Check::truth("rate-independent", "fbar-consistent: the limit load changes by less than 0.5 % when the rate is halved")
             .when(|c| c.is_default() && c.remedy() == FbarConsistent && !c.is_elastic())
-            .pairs(
-has_half_the_rate,
-|_, _| NC_B.name.to_owned(),
- change_of_load,
-)
-.at_most( |_| RATE)
+            .pairs(has_half_the_rate, |_, _| NC_B.name.to_owned(), change_of_load)
+            .at_most(|_| RATE)
             .because_of(|c| format!("a rate-independent law, pressed slowly: {}", halving(c))),
         Check::known_limit("rate-dependent", "fbar-recursive: the load changes by more than 0.5 % when the rate is halved")
             .when(|c| c.is_default() && c.remedy() == FbarRecursive && !c.is_elastic())
-            .pairs(
-has_half_the_rate,
-|_, _| NC_B.name.to_owned(),
- change_of_load,
-)
-.above( |_| RATE)
+            .pairs(has_half_the_rate, |_, _| NC_B.name.to_owned(), change_of_load)
+            .above(|_| RATE)
             .because_of(|c| format!("Eq. (26) averages the average and so diffuses J̄ in time: {}", halving(c))),
         Check::truth("contacts-agree", "all: the load through the barrier is that of held nodes within 2h/B")
             .study(contacts),

@@ -133,21 +133,20 @@ fn unseen_locks() -> Check {
     Gate::known_limit("unseen-locks", "GIMP, fbar-consistent beyond 1 − 2ν = ε²: rms error of u that of no remedy at 1 − 2ν′ = (1 − 2ν)/ε², within a tenth")
         .when(move |r| own(r) && is_beyond_unseen(r))
         .pairs(
-move |r, like| {
-            let soft = compressible(r) / (UNSEEN * UNSEEN);
-            own(like)
-                && like.remedy() == RemedyName::None
-                && like.level == r.level
-                && (compressible(like) / soft - 1.0).abs() < 1e-6
-        },
+            move |r, like| {
+                let soft = compressible(r) / (UNSEEN * UNSEEN);
+                own(like)
+                    && like.remedy() == RemedyName::None
+                    && like.level == r.level
+                    && (compressible(like) / soft - 1.0).abs() < 1e-6
+            },
             |r, like| {
                 let (metric, level, set) = (DISPLACEMENT_L2.name, &r.level, like.set.join(" "));
                 format!("{metric} of {level} over that of none at {set}")
             },
             |r, like| r.metric(DISPLACEMENT_L2) / like.metric(DISPLACEMENT_L2),
-)
-.within(            |_| 1.0,
-            |_| ALIKE)
+        )
+        .within(|_| 1.0, |_| ALIKE)
         .because("strains that Π can't see are as stiff as without a remedy at that ratio, and more than nodes can avoid")
 }
 

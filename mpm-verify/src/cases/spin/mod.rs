@@ -181,14 +181,14 @@ fn checks() -> Vec<Check> {
         Check::truth("loss-falls-with-cells", "flip, two turns: loss of angular momentum in proportion to h² from 4 to 8 cells in the radius, within 0.15 of the order")
             .when(|d| d.is_of(Flip) && d.set == ["turns=2"] && d.metric(ANGULAR_MOMENTUM_ERROR).is_finite())
             .pairs(
-|coarse, fine| {
-                let same = coarse.scheme == fine.scheme && coarse.set == fine.set;
-                same && coarse.h == 2.0 * fine.h && fine.metric(ANGULAR_MOMENTUM_ERROR).is_finite()
-            },
+                |coarse, fine| {
+                    let same = coarse.scheme == fine.scheme && coarse.set == fine.set;
+                    same && coarse.h == 2.0 * fine.h && fine.metric(ANGULAR_MOMENTUM_ERROR).is_finite()
+                },
                 |d, _| format!("order of angular_momentum_error of {}", d.scheme),
                 |coarse, fine| (coarse.metric(ANGULAR_MOMENTUM_ERROR) / fine.metric(ANGULAR_MOMENTUM_ERROR)).log2(),
-)
-.above(                |_| ORDER - 0.15)
+            )
+            .above(|_| ORDER - 0.15)
             .because("what a node's mass is off the node, times the layer in which it is"),
         Check::known_limit("flip-spins-down", "flip with η = 1, ten turns and more, four cells in the radius: loss of a tenth or more of the angular momentum")
             .when(|d| d.is_of(Flip) && d.flip == 1.0 && d.h >= 0.25 * RADIUS && d.is_long())

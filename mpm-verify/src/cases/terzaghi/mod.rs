@@ -128,21 +128,21 @@ fn checks() -> Vec<Check> {
         Check::truth("functions-agree", "linear functions and GIMP differ by at most 2 (q/M)/√(πT), the effect of domains sunk into the next cell by q H/M")
             .when(|c| c.basis() == Linear)
             .pairs(
-|c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()),
+                |c, other| same_but_scheme(c, other) && other.scheme == c.scheme.with(Gimp, c.remedy()),
                 |c, _| format!("difference of {} of {} {} and gimp", PRESSURE_L2_STEPS.name, c.scheme, c.level),
                 |c, other| (c.metric(PRESSURE_L2_STEPS) - other.metric(PRESSURE_L2_STEPS)).abs(),
-)
-.at_most(                // A domain of h/2 has the share 2 q H/(M h) in a cell whose strain differs by h ε′ ≤ h/(H √(πT)) of q/M.
-                |c| 2.0 * c.strain() / (std::f64::consts::PI * c.end()).sqrt())
+            )
+            // A domain of h/2 has the share 2 q H/(M h) in a cell whose strain differs by h ε′ ≤ h/(H √(πT)) of q/M.
+            .at_most(|c| 2.0 * c.strain() / (std::f64::consts::PI * c.end()).sqrt())
             .because("a mean of a hat over a domain within its cell is the hat at the middle"),
         Check::bookkeeping("fewer-entries", "matrices of two grids with fewer entries than those of one")
             .when(|c| c.space() == Some(TwoGrid) && c.first_step == 0.0)
             .pairs(
-|c, other| same_but_scheme(c, other) && other.scheme == Scheme::poro(c.basis(), Equal),
+                |c, other| same_but_scheme(c, other) && other.scheme == Scheme::poro(c.basis(), Equal),
                 |c, _| format!("entries of {} {} over those of equal", c.scheme, c.level),
                 |c, other| c.metric(ENTRIES) / other.metric(ENTRIES),
-)
-.at_most(                |_| 1.0)
+            )
+            .at_most(|_| 1.0)
             .because("half as many pressures along every axis"),
     ]
 }

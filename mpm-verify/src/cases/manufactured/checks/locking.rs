@@ -21,12 +21,8 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
         Gate::truth("no-locking", "F̄ except fbar-recursive, not linear, up to 1 − 2ν = ε²: rms error of u at most 1.2 times that at ν = 0.3")
             .when(|r| ratio(r) != COMPRESSIBLE)
             .when(|r| is_sound(r.remedy()) && r.basis() != Linear && !is_beyond_unseen(r))
-            .pairs(
-is_soft_twin,
-|r, _| about(r),
- factor,
-)
-.at_most( |_| LOCKING_FREE)
+            .pairs(is_soft_twin, |r, _| about(r), factor)
+            .at_most(|_| LOCKING_FREE)
             .because("the exact motion does not depend on ν; both runs take the same steps"),
         Gate::known_limit("locks", "none, linear functions and GIMP, ν ≥ 0.499, coarsest level: rms error of u above 1.5 times that at ν = 0.3")
             .study(|records| {
