@@ -2,7 +2,7 @@
 //! motion.
 
 use mpm_core::implicit::{Domains, Functions, HalfSizes, Interpolation, Moduli, Penalty};
-use mpm_core::{Error, Grid};
+use mpm_core::{Cause, Error, Grid, Lattice, basis};
 use nalgebra::{DMatrix, DVector};
 
 /// Least value of a function, or slope over a cell, that counts at a particle: less is rounding. The solver's own
@@ -13,6 +13,14 @@ const LEAST: f64 = 1e-12;
 /// less than the other number there.
 const POINT: f64 = 1e-9;
 const HELD: f64 = 1e-6;
+
+pub(super) type Hats = Lattice<2, 2, basis::Linear>;
+pub(super) type Means = Lattice<2, 3, basis::Gimp>;
+
+/// The fault of a matrix that has no factors.
+pub(super) fn singular() -> Error {
+    Error::Singular { time: 0.0, step: 0, iteration: 0, cause: Cause::Unknown }
+}
 
 /// Particles of one size.
 pub(super) struct Cloud {

@@ -157,6 +157,21 @@ impl Prices {
         };
         format!("{bound}{:.1}", cost.pairs / best.pairs)
     }
+
+    /// Cheapest first.
+    pub(super) fn table(&self) -> Sheet {
+        let head = ["scheme", "particle–node pairs (10⁶)", "CPU time (s)", "× cheapest", "least error"];
+        let row = |row: &Price| {
+            let [pairs, cpu] = row.shown();
+            vec![row.name(), pairs, cpu, self.relative(row), words::number(Some(rounded(row.least)))]
+        };
+        Sheet::new(head).with(self.rows.iter().map(row))
+    }
+
+    /// The target as shown.
+    pub(super) fn aim(&self) -> String {
+        words::number(Some(rounded(self.target)))
+    }
 }
 
 impl Price {
@@ -204,23 +219,6 @@ fn cost(points: &[Point], target: f64) -> Option<Cost> {
         cpu_s: between(coarse.cpu_s, fine.cpu_s),
         at_most: false,
     })
-}
-
-impl Prices {
-    /// Cheapest first.
-    pub(super) fn table(&self) -> Sheet {
-        let head = ["scheme", "particle–node pairs (10⁶)", "CPU time (s)", "× cheapest", "least error"];
-        let row = |row: &Price| {
-            let [pairs, cpu] = row.shown();
-            vec![row.name(), pairs, cpu, self.relative(row), words::number(Some(rounded(row.least)))]
-        };
-        Sheet::new(head).with(self.rows.iter().map(row))
-    }
-
-    /// The target as shown.
-    pub(super) fn aim(&self) -> String {
-        words::number(Some(rounded(self.target)))
-    }
 }
 
 /// Whether an error is one of the stress.

@@ -2,13 +2,9 @@
 
 use super::*;
 use crate::cases::analysis::{Analysis, visited};
-use crate::cases::forms::{Cloud, Field, coarse, eigenvalues, log10_condition, scaled};
+use crate::cases::forms::{Cloud, Field, Hats, Means, coarse, eigenvalues, log10_condition, scaled, singular};
 use mpm_core::implicit::{Moduli, OfHats};
-use mpm_core::{Lattice, basis};
 use nalgebra::DMatrix;
-
-type Hats = Lattice<2, 2, basis::Linear>;
-type Means = Lattice<2, 3, basis::Gimp>;
 
 /// Particles a cell of the displacement and direction.
 const PARTICLES: usize = 3;
@@ -199,12 +195,7 @@ impl Setup<Ellipse> {
         let stiffness = u.stiffness(&cloud, MODULI);
         let ghost = u.penalty(&functions.ghost(self.alpha, &[], 2, cloud.domains()), 2);
         let work = |matrix: DMatrix<f64>| {
-            let factors = matrix.cholesky().ok_or(mpm_core::Error::Singular {
-                time: 0.0,
-                step: 0,
-                iteration: 0,
-                cause: mpm_core::Cause::Unknown,
-            })?;
+            let factors = matrix.cholesky().ok_or_else(singular)?;
             Ok::<f64, Fault>(factors.solve(&force).dot(&force))
         };
         let plain = work(stiffness.clone())?;

@@ -60,14 +60,9 @@ fn column(runs: &Exhibit, (basis, level): (BasisName, &str), time: f64) -> Resul
     let mut panels = Vec::new();
     for remedy in SHOWN {
         let title = format!("{}, {time:.1} s", remedy_title(remedy));
-        let panel = match runs.find(basis, remedy, level) {
-            Some(record) => panel(runs, record, time, title)?,
-            None => None,
-        };
-        match panel {
-            Some(panel) => panels.push(panel),
-            None => return Ok(Vec::new()),
-        }
+        let Some(record) = runs.find(basis, remedy, level) else { return Ok(Vec::new()) };
+        let Some(panel) = panel(runs, record, time, title)? else { return Ok(Vec::new()) };
+        panels.push(panel);
     }
     Ok(panels)
 }

@@ -16,17 +16,6 @@ pub(super) struct Start {
     pub(super) kinetic_energy: f64,
 }
 
-impl Start {
-    pub(super) fn metrics(&self, weight: f64) -> Vec<(Metric, f64)> {
-        vec![
-            (BASE_REACTION_RATIO, self.base_reaction / weight),
-            (GATE_FORCE, self.gate_force),
-            (BACK_FORCE, self.back_force),
-            (START_KINETIC_ENERGY, self.kinetic_energy),
-        ]
-    }
-}
-
 /// One observation; forces are means since the one before.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct State {

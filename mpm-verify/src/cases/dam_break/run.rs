@@ -105,6 +105,67 @@ impl Dam {
         let particles = Particles::new(places, volume, self.water.density, half_size)?;
         Ok(if self.is_staged() { particles } else { particles.deformed(|x| compressed(&self.water, x)) })
     }
+
+    /// From the exact start: holds the water behind the gate for a while, to measure it. The flow begins anew.
+    fn hold(&self, start: &mut Start, phase: &mut Phase<2>) -> Result<(), Fault> {
+        let steps = (PERIODS * self.period() / self.dt).round() as u64;
+        let before = impulses(&*phase.run);
+        phase.steps(1)?;
+        start.pressures = seeded_pressures(&mut *phase.run);
+        phase.steps(steps.saturating_sub(1))?;
+        measure_forces(start, &*phase.run, &before, steps as f64 * self.dt);
+        phase.enter(self.released()?, None)
+    }
+
+    /// Metrics of pressures (Pa) at these heights (m, before anything moves) behind the gate.
+    pub(super) fn pressure_metrics(&self, heights: &[f64], pressures: &[f64]) -> Vec<(Metric, f64)> {
+        let of_height = || heights.iter().copied().zip(pressures.iter().copied());
+        let off = of_height().map(|(y, pressure)| pressure - self.water.pressure(y));
+        let lower: Vec<(f64, f64)> = of_height().filter(|(y, _)| *y < 0.5 * DEPTH).collect();
+        vec![
+            (PRESSURE_PROFILE_ERROR, rms(off) / self.water.pressure(0.0)),
+            (BASE_PRESSURE, fit_line(&lower).map_or(f64::NAN, |line| line.intercept)),
+        ]
+    }
+
+    /// The current state; `before` are the impulses of the row before.
+    fn observe(&self, run: &mut dyn Simulation<2>, before: &Impulses) -> State {
+        let now = impulses(run);
+        let force = |place: usize, axis: usize| (now[place][axis] - before[place][axis]) / ROW;
+        let pressures_now = pressures(run, Field::MeanStress);
+        let board = checkerboard(&pressures_now, &pressures(run, Field::AveragedMeanStress));
+        let in_tension = pressures_now.iter().filter(|p| **p < 0.0).count();
+        let totals = run.totals();
+        let p = run.particles();
+        let mut first_moments = [0.0; 2];
+        for (mass, x) in p.mass.iter().zip(&p.position) {
+            for (moment, x) in first_moments.iter_mut().zip(x) {
+                *moment += mass * x;
+            }
+        }
+        let front = p.position.iter().map(|x| x[0]).fold(0.0, f64::max);
+        let cell = self.setup.h;
+        let level = p.position.iter().filter(|x| x[0] < cell).map(|x| x[1]).fold(0.0, f64::max);
+        State {
+            time: run.time(),
+            front: front + 0.5 * self.spacing,
+            back_level: level + 0.5 * self.spacing,
+            centre: first_moments.map(|moment| moment / totals.mass),
+            kinetic: totals.kinetic_energy,
+            potential: GRAVITY * first_moments[1],
+            stress_work: totals.accumulated.stress_work,
+            stored: totals.stored_energy,
+            floor_force: -force(FLOOR, 1),
+            back_force: -force(BACK, 0),
+            front_force: force(FRONT, 0),
+            pressure_rms: rms(pressures_now.iter().copied()),
+            checkerboard_rms: board,
+            tension: in_tension as f64 / p.len() as f64,
+            covered: covered(&p.position, self.spacing),
+            jacobian: totals.jacobian,
+            log_jacobian_gap: totals.log_jacobian_gap_rms,
+        }
+    }
 }
 
 /// The tank, open above.
@@ -167,69 +228,6 @@ pub(super) struct Observed {
 
 /// Impulses (N s/m) on floor, back wall, front wall and gate.
 type Impulses = [[f64; 3]; 4];
-
-impl Dam {
-    /// From the exact start: holds the water behind the gate for a while, to measure it. The flow begins anew.
-    fn hold(&self, start: &mut Start, phase: &mut Phase<2>) -> Result<(), Fault> {
-        let steps = (PERIODS * self.period() / self.dt).round() as u64;
-        let before = impulses(&*phase.run);
-        phase.steps(1)?;
-        start.pressures = seeded_pressures(&mut *phase.run);
-        phase.steps(steps.saturating_sub(1))?;
-        measure_forces(start, &*phase.run, &before, steps as f64 * self.dt);
-        phase.enter(self.released()?, None)
-    }
-
-    /// Metrics of pressures (Pa) at these heights (m, before anything moves) behind the gate.
-    pub(super) fn pressure_metrics(&self, heights: &[f64], pressures: &[f64]) -> Vec<(Metric, f64)> {
-        let of_height = || heights.iter().copied().zip(pressures.iter().copied());
-        let off = of_height().map(|(y, pressure)| pressure - self.water.pressure(y));
-        let lower: Vec<(f64, f64)> = of_height().filter(|(y, _)| *y < 0.5 * DEPTH).collect();
-        vec![
-            (PRESSURE_PROFILE_ERROR, rms(off) / self.water.pressure(0.0)),
-            (BASE_PRESSURE, fit_line(&lower).map_or(f64::NAN, |line| line.intercept)),
-        ]
-    }
-
-    /// The current state; `before` are the impulses of the row before.
-    fn observe(&self, run: &mut dyn Simulation<2>, before: &Impulses) -> State {
-        let now = impulses(run);
-        let force = |place: usize, axis: usize| (now[place][axis] - before[place][axis]) / ROW;
-        let pressures_now = pressures(run, Field::MeanStress);
-        let board = checkerboard(&pressures_now, &pressures(run, Field::AveragedMeanStress));
-        let in_tension = pressures_now.iter().filter(|p| **p < 0.0).count();
-        let totals = run.totals();
-        let p = run.particles();
-        let mut first_moments = [0.0; 2];
-        for (mass, x) in p.mass.iter().zip(&p.position) {
-            for (moment, x) in first_moments.iter_mut().zip(x) {
-                *moment += mass * x;
-            }
-        }
-        let front = p.position.iter().map(|x| x[0]).fold(0.0, f64::max);
-        let cell = self.setup.h;
-        let level = p.position.iter().filter(|x| x[0] < cell).map(|x| x[1]).fold(0.0, f64::max);
-        State {
-            time: run.time(),
-            front: front + 0.5 * self.spacing,
-            back_level: level + 0.5 * self.spacing,
-            centre: first_moments.map(|moment| moment / totals.mass),
-            kinetic: totals.kinetic_energy,
-            potential: GRAVITY * first_moments[1],
-            stress_work: totals.accumulated.stress_work,
-            stored: totals.stored_energy,
-            floor_force: -force(FLOOR, 1),
-            back_force: -force(BACK, 0),
-            front_force: force(FRONT, 0),
-            pressure_rms: rms(pressures_now.iter().copied()),
-            checkerboard_rms: board,
-            tension: in_tension as f64 / p.len() as f64,
-            covered: covered(&p.position, self.spacing),
-            jacobian: totals.jacobian,
-            log_jacobian_gap: totals.log_jacobian_gap_rms,
-        }
-    }
-}
 
 impl Problem<2> for Dam {
     type Parameters = DamBreak;
@@ -327,7 +325,12 @@ impl Problem<2> for Dam {
     fn metrics(&self, seen: &Observed, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
         let density = self.water.density;
         let weight = density * GRAVITY * LENGTH * DEPTH;
-        let mut values = seen.start.metrics(weight);
+        let mut values = vec![
+            (BASE_REACTION_RATIO, seen.start.base_reaction / weight),
+            (GATE_FORCE, seen.start.gate_force),
+            (BACK_FORCE, seen.start.back_force),
+            (START_KINETIC_ENERGY, seen.start.kinetic_energy),
+        ];
         values.extend(seen.flow.metrics(density, self.setup.h));
         let p = phase.run.particles();
         values.extend(self.pressure_metrics(&p.seeded(|k| p.reference[k][1]), &seen.start.pressures));

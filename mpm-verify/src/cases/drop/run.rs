@@ -47,14 +47,6 @@ pub(super) struct Falling {
     momentum: [f64; 2],
 }
 
-impl Setup<Drop> {
-    /// Whether a step goes as far as the barrier needs to carry the impact. Its force grows with the square of the depth from
-    /// nothing: that of half of the reach, over `stiffness`.
-    pub(super) fn crosses_the_barrier(&self) -> bool {
-        self.speed * self.cfl / REACH > 0.5 / self.stiffness.sqrt()
-    }
-}
-
 impl Falling {
     fn reach(&self) -> f64 {
         REACH * self.setup.h

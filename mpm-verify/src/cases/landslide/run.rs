@@ -133,9 +133,7 @@ impl<const D: usize> Slide<D> {
         seen.reduction = Some(self.next_reduction(seen));
         phase.enter(self.begin(seen)?, Some(&body))
     }
-}
 
-impl<const D: usize> Slide<D> {
     /// The strength that holds now.
     fn strength(&self, seen: &Seen) -> Result<Strength, Fault> {
         self.setup.strength(seen.reduction.unwrap_or(1.0))

@@ -6,7 +6,6 @@ const LEVEL: Label = ("level", |r| {
     let level = r.level.replace("slice-", "slice, ").replace('h', "");
     format!("{level} m")
 });
-const CHANGED: Label = ("changed", |r| r.set.join(", "));
 
 /// The tables in plane strain.
 pub(super) fn in_plane() -> Vec<ResultTable> {

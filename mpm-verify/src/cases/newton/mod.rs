@@ -184,7 +184,6 @@ fn checks() -> Vec<Check> {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const SET: Label = ("changed", |r| r.set.join(", "));
     let columns = || {
         [
             Column::metric("load carried", CARRIED, share(1)),
@@ -200,7 +199,7 @@ fn tables() -> Vec<ResultTable> {
         r.level == "n8" && r.remedy() == RemedyName::None && setup.is_ok_and(|c| c.stands() == stands)
     };
     vec![
-        ResultTable::new("newton-hangs", move |r| plain(r, false), &[SCHEME, SET], columns()),
-        ResultTable::new("newton-stands", move |r| plain(r, true), &[SCHEME, SET], columns()),
+        ResultTable::new("newton-hangs", move |r| plain(r, false), &[SCHEME, CHANGED], columns()),
+        ResultTable::new("newton-stands", move |r| plain(r, true), &[SCHEME, CHANGED], columns()),
     ]
 }

@@ -216,7 +216,6 @@ fn orders(records: &[Record]) -> Vec<Finding> {
 fn tables() -> Vec<ResultTable> {
     const LEVELS: [(&str, &str); 3] = [("t1", "one cell"), ("t2", "two"), ("t4", "four")];
     const RATIO: Label = ("ν", |r| Setup::<Thin>::number_of(r, |b| b.poisson_ratio).to_string());
-    const SET: Label = ("changed", |r| r.set.join(", "));
     let of = |metric, title: &str| {
         Column::levels(LEVELS.map(|(level, cells)| (level, format!("{title}, {cells}"))), metric, fixed(3))
     };
@@ -224,6 +223,6 @@ fn tables() -> Vec<ResultTable> {
     let shows = |r: &Record| r.scheme().rule().is_none() && r.changes_none_but(&["poisson_ratio"]);
     vec![
         ResultTable::new("thin", shows, &[SCHEME, RATIO], columns()),
-        ResultTable::new("thin-others", move |r| !shows(r), &[SCHEME, SET], columns()),
+        ResultTable::new("thin-others", move |r| !shows(r), &[SCHEME, CHANGED], columns()),
     ]
 }

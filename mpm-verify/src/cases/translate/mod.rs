@@ -68,7 +68,7 @@ pub(super) fn case() -> Case {
             .note([0.5, 0.38], "0.05 c")
             .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"))
         .cost(|_| 0.2)
-        .tables(tables())
+        .table(table())
 }
 
 fn plan() -> Plan {
@@ -140,14 +140,13 @@ fn checks() -> Vec<Check> {
     ]
 }
 
-fn tables() -> Vec<ResultTable> {
-    let columns = [
-        Column::metric("noise of the stress, most", STRESS_NOISE, share(3)),
-        Column::metric("mean", STRESS_NOISE_MEAN, share(3)),
-        Column::metric("predicted", PREDICTED_NOISE, share(3)),
-        Column::metric("mean stress kept", STRESS_KEPT, share(1)),
-        Column::metric("noise of the velocity", VELOCITY_NOISE, share(3)),
-        Column::metric("energy gain", ENERGY_GAIN, SHORT),
-    ];
-    vec![ResultTable::new("translate", Record::is_default, &[SCHEME], columns)]
+fn table() -> ResultTable {
+    ResultTable::of("translate", Record::is_default)
+        .by(&[SCHEME])
+        .metric("noise of the stress, most", STRESS_NOISE, share(3))
+        .metric("mean", STRESS_NOISE_MEAN, share(3))
+        .metric("predicted", PREDICTED_NOISE, share(3))
+        .metric("mean stress kept", STRESS_KEPT, share(1))
+        .metric("noise of the velocity", VELOCITY_NOISE, share(3))
+        .metric("energy gain", ENERGY_GAIN, SHORT)
 }

@@ -2,14 +2,12 @@
 
 use super::*;
 use crate::cases::analysis::{Analysis, visited};
-use crate::cases::forms::{self, Cloud, coarse, eigenvalues};
+use crate::cases::forms::{self, Cloud, Hats, Means, coarse, eigenvalues, singular};
 use mpm_core::Lattice;
-use mpm_core::basis::{self, QuadraticBSpline};
+use mpm_core::basis::QuadraticBSpline;
 use mpm_core::implicit::{Interpolation, OfHats};
 use nalgebra::{DMatrix, DVector};
 
-type Hats = Lattice<2, 2, basis::Linear>;
-type Means = Lattice<2, 3, basis::Gimp>;
 type Splines = Lattice<2, 3, QuadraticBSpline>;
 
 /// Smaller eigenvalues are rounding.
@@ -195,8 +193,6 @@ impl Body {
     }
 
     fn found(&self, [u, p]: &[forms::Field; 2], norm: DMatrix<f64>) -> Result<Found, Fault> {
-        let singular =
-            || mpm_core::Error::Singular { time: 0.0, step: 0, iteration: 0, cause: mpm_core::Cause::Unknown };
         let cloud = &self.cloud;
         let norm = norm.cholesky().ok_or_else(singular)?;
         let coupling = u.coupling(p, cloud);
