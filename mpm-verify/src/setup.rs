@@ -128,17 +128,6 @@ impl<P> Setup<P> {
         self.set.is_empty()
     }
 
-    /// Whether `name` is the only parameter that was changed.
-    pub fn changes_only(&self, name: &str) -> bool {
-        !self.set.is_empty() && self.changes_none_but(&[name])
-    }
-
-    /// Whether no other parameters than those of these names were changed.
-    pub fn changes_none_but(&self, names: &[&str]) -> bool {
-        let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
-        changed.all(|name| names.contains(&name))
-    }
-
     /// Initial positions (m) of particles seeded at `positions`: these, or, in a perturbed run, the next floating-point numbers.
     pub fn start_at<const D: usize>(&self, positions: impl IntoIterator<Item = [f64; D]>) -> Vec<[f64; D]> {
         crate::spec::start_at(positions.into_iter().collect(), self.perturbed)

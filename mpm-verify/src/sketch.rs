@@ -1,5 +1,7 @@
 //! The geometry of a problem, for a reader: shapes in the problem's own coordinates (m).
 
+use std::f64::consts::{PI, TAU};
+
 /// A point (m).
 pub type Point = [f64; 2];
 
@@ -72,6 +74,18 @@ impl Sketch {
     /// Adds a body with these corners.
     pub(crate) fn body(self, corners: impl IntoIterator<Item = Point>) -> Self {
         self.with(Shape::Body(corners.into_iter().collect()))
+    }
+
+    /// Adds a disc about a point.
+    pub(crate) fn disc(self, [x, y]: Point, radius: f64) -> Self {
+        let angles = (0..48).map(|k| f64::from(k) / 48.0 * TAU);
+        self.body(angles.map(|angle| [x + radius * angle.cos(), y + radius * angle.sin()]))
+    }
+
+    /// Adds the upper half of an ellipse, by the middle of its straight side and half axes.
+    pub(crate) fn half_ellipse(self, middle: f64, [a, b]: [f64; 2]) -> Self {
+        let angles = (0..=24).map(|k| PI * f64::from(k) / 24.0);
+        self.body(angles.map(|angle| [middle + a * angle.cos(), b * angle.sin()]))
     }
 
     /// Adds a side that is held: see [`Shape::Held`].

@@ -328,7 +328,7 @@ fn claim_of_damping(r: &Setup<()>) -> Claim {
 /// Runs that differ in their steps alone; those of cells cancel.
 fn steps_slow(records: &[Record]) -> Vec<Finding> {
     let runs = Run::<()>::all(records);
-    let runs: Vec<Run<()>> = runs.filter(|r| r.is_implicit() && r.changes_only(CFL.name)).collect();
+    let runs: Vec<Run<()>> = runs.filter(|r| r.is_implicit() && r.record.changes_only(CFL.name)).collect();
     let found = runs.iter().filter_map(|r| {
         let same = |other: &&Run<()>| other.scheme == r.scheme && other.level == r.level;
         let finest = runs.iter().filter(same).min_by(|a, b| a.dt().total_cmp(&b.dt()))?;

@@ -145,7 +145,7 @@ fn falls(records: &[Record]) -> Vec<Finding> {
 fn steps(records: &[Record]) -> Vec<Finding> {
     let runs = ended(records);
     let at = |steps: i32| {
-        let own = |b: &&Beam| b.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
+        let own = |b: &&Beam| b.record.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)
     };
     let (Some(few), Some(own), Some(many)) = (at(5), at(20), at(160)) else { return Vec::new() };

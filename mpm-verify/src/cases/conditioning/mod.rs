@@ -81,14 +81,10 @@ fn plan() -> Plan {
 
 fn sketch() -> Sketch {
     let [a, b] = HALF_AXES.map(|a| 0.1 * a);
-    let arc = (0..=24).map(|k| {
-        let angle = PI * f64::from(k) / 24.0;
-        [a * angle.cos(), b * angle.sin()]
-    });
     Sketch::of(
         "Half an ellipse of 20 by 6 cells, held and drained at its straight side, which is moved along a grid line.",
     )
-    .body(arc)
+    .half_ellipse(0.0, [a, b])
     .held([-a, 0.0], [a, 0.0])
     .length([-a, -0.2], [a, -0.2], "20 h")
     .length([a + 0.15, 0.0], [a + 0.15, b], "6 h")
@@ -158,7 +154,7 @@ fn checks() -> Vec<Check> {
 /// A metric at two strengths next to each other, by name, for every scheme and number of places.
 fn over_strength(records: &[Record], metric: Metric) -> Vec<(String, [f64; 2])> {
     let mut ladders: BTreeMap<(String, usize), Vec<(f64, f64)>> = BTreeMap::new();
-    for e in Run::<Ellipse>::all(records).filter(|e| e.changes_none_but(&["alpha", "positions"])) {
+    for e in Run::<Ellipse>::all(records).filter(|e| e.record.changes_none_but(&["alpha", "positions"])) {
         ladders.entry((e.scheme.to_string(), e.positions)).or_default().push((e.alpha, e.metric(metric)));
     }
     let mut all = Vec::new();

@@ -59,7 +59,14 @@ pub(super) fn case() -> Case {
         .headline(OFFERED_CFL, "offered (–)", 1.0, 3)
         .headline(FED_CFL, "fed by a mean stress (–)", 1.0, 3)
         .watched(&["growth", "cfl"])
-        .sketch(sketch())
+        .sketch(Sketch::of("A periodic lattice of particles, six cells in a period, at rest except for noise.")
+            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            .probe([0.125, 0.5], "")
+            .probe([0.375, 0.5], "")
+            .probe([0.625, 0.5], "")
+            .probe([0.875, 0.5], "")
+            .note([0.5, 0.8], "noise")
+            .length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"))
         .cost(|_| 0.1)
         .begun(|spec, values| {
             match Setup::<Step>::of_spec(spec, values)?.dimension {
@@ -91,16 +98,6 @@ fn plan() -> Plan {
         .runs(Nightly, "n6", &space, "dimension=3")
         .each(Pr, "n6", &plain, ["0.5", "1"].map(|c| format!("dimension=1 linear_viscosity={c}")))
         .each(Nightly, "n6", &flip, [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")))
-}
-
-fn sketch() -> Sketch {
-    let lattice = Sketch::of("A periodic lattice of particles, six cells in a period, at rest except for noise.")
-        .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
-    [0.125, 0.375, 0.625, 0.875]
-        .into_iter()
-        .fold(lattice, |sketch, x| sketch.probe([x, 0.5], ""))
-        .note([0.5, 0.8], "noise")
-        .length([0.0, -0.1], [1.0, -0.1], "6 h, periodic")
 }
 
 impl Setup<Step> {

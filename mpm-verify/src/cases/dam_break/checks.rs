@@ -250,7 +250,7 @@ fn sets(assignment: &str, name: &str) -> bool {
 
 /// The runs of each scheme of F̄ with FLIP that are divided in time in one way, coarsest first.
 fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
-    let judged = |w: &&Water| w.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
+    let judged = |w: &&Water| w.record.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
     let mut own: Vec<&Water> = runs.iter().filter(judged).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
     let kinds = crate::distinct(own.iter().map(|w| (w.scheme, &w.set)));
@@ -291,7 +291,7 @@ fn late(runs: &[Water]) -> Vec<Finding> {
 
 /// The range of a metric over an ensemble of the scheme, of the level and the time step that have one.
 fn spread(runs: &[Water], like: &Water, metric: Metric) -> f64 {
-    let members = |w: &&Water| w.scheme == like.scheme && w.changes_only("seed");
+    let members = |w: &&Water| w.scheme == like.scheme && w.record.changes_only("seed");
     let values = || runs.iter().filter(members).map(|w| w.metric(metric));
     let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
     range.max(0.0)

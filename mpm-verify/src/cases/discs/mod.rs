@@ -191,16 +191,10 @@ fn plan() -> Plan {
 }
 
 fn sketch() -> Sketch {
-    let circle = |[x, y]: [f64; 2]| {
-        (0..48).map(move |k| {
-            let angle = f64::from(k) / 48.0 * TAU;
-            [x + RADIUS * angle.cos(), y + RADIUS * angle.sin()]
-        })
-    };
     let [a, b] = CENTRES;
     Sketch::of("Two discs of 0.4 m in diameter on a diagonal of a square of 1 m fly towards each other.")
-        .body(circle(a))
-        .body(circle(b))
+        .disc(a, RADIUS)
+        .disc(b, RADIUS)
         .load(a, a.map(|x| x + 0.12))
         .load(b, b.map(|x| x - 0.12))
         .note([0.62, 0.2], "0.005 m/s")

@@ -244,7 +244,7 @@ fn checks() -> Vec<Check> {
             .at_most(FRICTION_RATIO, |c| c.friction * (1.0 + ROUNDING))
             .because("Coulomb's law, which holds of every particle"),
         Check::truth("peak-does-not-fail", "rough base: the cut slope stands at the peak strength without softening, and does not with it")
-            .when(|c| c.record.status == Status::Ok && c.changes_none_but(&["residual"]) && !c.softens())
+            .when(|c| c.record.status == Status::Ok && c.record.changes_none_but(&["residual"]) && !c.softens())
             .pairs(
                 |perfect, own| {
                     let alike = own.record.status == Status::Ok && own.is_default() && own.scheme == perfect.scheme && own.level == perfect.level;

@@ -359,14 +359,16 @@ fn contacts(records: &[Record]) -> Vec<Finding> {
         );
         Some(Finding::within(NC_B, run.metric(NC_B), held, 2.0 * run.h / WIDTH * held, why))
     };
-    runs.iter().filter(|r| r.changes_only("contact")).filter_map(found).collect()
+    runs.iter().filter(|r| r.record.changes_only("contact")).filter_map(found).collect()
 }
 
 /// The order of the error of the contact pressure by B, over runs of the case's own parameters up to any penetration.
 fn orders(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Run<Footing>> = Run::all(records).collect();
     let judged = |r: &&Run<Footing>| {
-        r.is_free_of_locking() && (r.is_default() || r.changes_only("penetration")) && r.effective_width().0 > WIDTH
+        r.is_free_of_locking()
+            && (r.is_default() || r.record.changes_only("penetration"))
+            && r.effective_width().0 > WIDTH
     };
     let order = |scheme: Scheme| {
         let own = runs.iter().filter(|r| r.scheme == scheme).filter(judged);

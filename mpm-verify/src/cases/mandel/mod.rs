@@ -151,7 +151,7 @@ fn checks() -> Vec<Check> {
             .named(|c| format!("order in h of {} of {}", CENTRE_PRESSURE_ERROR_SPACE.name, c.scheme))
             .because(ORDERS),
         Check::truth("order-time", "linear functions, n8, three finest steps: error of time alone of order in Δt at least 1 − 0.15")
-            .when(|c| c.level == "n8" && c.basis() == Linear && c.changes_none_but(&["steps"]))
+            .when(|c| c.level == "n8" && c.basis() == Linear && c.record.changes_none_but(&["steps"]))
             .order(CENTRE_PRESSURE_ERROR_TIME, Over::TimeStep, 1.0)
             .because(ORDERS),
         Check::truth("order-together", "n8, n16, n32 with steps in proportion to h²: whole error of order in h at least 2 − 0.15")

@@ -62,7 +62,7 @@ impl Setup<Mandel> {
     /// Whether the run is one of those whose steps shrink as h², 60 of them at n8.
     pub(super) fn shrinks_together(&self) -> bool {
         let count = 60.0 * (WIDTH / self.h / 8.0).powi(2);
-        (f64::from(self.steps) - count).abs() < 1e-6 && self.changes_none_but(&["steps"])
+        (f64::from(self.steps) - count).abs() < 1e-6 && self.set.iter().all(|set| set.starts_with("steps="))
     }
 
     /// The exact slab, from the first step on.

@@ -129,7 +129,7 @@ fn over_ratios(name: &str, value: fn(&Record) -> f64, format: Format) -> ResultT
 /// Where the stiffness ε² K of what the average can't see is what locks.
 fn unseen_locks() -> Check {
     let compressible = |r: &Run<()>| 1.0 - 2.0 * r.values.number(POISSON_RATIO);
-    let own = |r: &Run<()>| r.basis() == Gimp && r.changes_none_but(&[POISSON_RATIO.name]);
+    let own = |r: &Run<()>| r.basis() == Gimp && r.record.changes_none_but(&[POISSON_RATIO.name]);
     Gate::known_limit("unseen-locks", "GIMP, fbar-consistent beyond 1 − 2ν = ε²: rms error of u that of no remedy at 1 − 2ν′ = (1 − 2ν)/ε², within a tenth")
         .when(move |r| own(r) && is_beyond_unseen(r))
         .pairs(

@@ -68,7 +68,12 @@ pub(super) fn case() -> Case {
         .headline(STRETCH_MEAN_ERROR, "stretch off by (%)", 100.0, 1)
         .headline(PHASE_ERROR, "angle off by (%)", 100.0, 2)
         .watched(&["angular_momentum", "rms_radius"])
-        .sketch(sketch())
+        .sketch(Sketch::of("A disc of 2 m in diameter that turns about its centre and touches nothing.")
+            .disc([0.0, 0.0], RADIUS)
+            .load([RADIUS, 0.0], [RADIUS, 0.5])
+            .load([-RADIUS, 0.0], [-RADIUS, -0.5])
+            .note([0.0, 0.0], "0.1 c at the rim")
+            .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m"))
         .cost(cost)
         .tables(tables())
         .breaks_down(breaks_down)
@@ -115,19 +120,6 @@ fn plan() -> Plan {
         .runs(Nightly, "r4", &all, "turns=100")
         .runs(Nightly, "r4 r8", &smooth, "time_step=auto turns=2")
         .each(Pr, "r4", &blended, ["flip=0.99", "flip=0"])
-}
-
-fn sketch() -> Sketch {
-    let rim = (0..48).map(|k| {
-        let (sin, cos) = (f64::from(k) / 48.0 * TAU).sin_cos();
-        [RADIUS * cos, RADIUS * sin]
-    });
-    Sketch::of("A disc of 2 m in diameter that turns about its centre and touches nothing.")
-        .body(rim)
-        .load([RADIUS, 0.0], [RADIUS, 0.5])
-        .load([-RADIUS, 0.0], [-RADIUS, -0.5])
-        .note([0.0, 0.0], "0.1 c at the rim")
-        .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m")
 }
 
 impl Setup<Disc> {

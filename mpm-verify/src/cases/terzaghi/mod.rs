@@ -122,7 +122,7 @@ fn checks() -> Vec<Check> {
             .order(PRESSURE_L2_STEPS, Over::CellSize, 2.0)
             .because("pressures are linear, and strains averaged, in a cell"),
         Check::truth("order-time", "n80, three finest steps: error of p of order in Δt at least 1 − 0.15")
-            .when(|c| c.level == "n80" && c.changes_none_but(&["steps"]))
+            .when(|c| c.level == "n80" && c.record.changes_none_but(&["steps"]))
             .order(PRESSURE_L2, Over::TimeStep, 1.0)
             .because("backward Euler's rule"),
         Check::truth("functions-agree", "linear functions and GIMP differ by at most 2 (q/M)/√(πT), the effect of domains sunk into the next cell by q H/M")

@@ -65,7 +65,13 @@ pub(super) fn case() -> Case {
         .headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3)
         .headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3)
         .watched(&["deflection"])
-        .sketch(sketch())
+        .sketch(Sketch::of("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.")
+            .body([[0.0, 0.0], [HALF, 0.0], [HALF, DEPTH], [0.0, DEPTH]])
+            .held([0.0, 0.0], [0.0, DEPTH])
+            .load([0.1, 0.25], [0.1, 0.15])
+            .load([0.95, 0.15], [0.95, 0.25])
+            .length([0.0, -0.08], [HALF, -0.08], "1 m, half of it")
+            .length([1.1, 0.0], [1.1, DEPTH], "0.1 m"))
         .cost(|spec| 1e-6 * spec.level.h.powi(-3))
         .tables(tables())
         .breaks_down(|r| {
@@ -100,17 +106,6 @@ fn plan() -> Plan {
         .runs(Nightly, "t2 t4", &splines, consistent)
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Midpoint, &[Linear, Gimp, Bspline2]), "cfl=5")
         .runs(Nightly, "t1 t2 t4", &of(RuleName::Newmark, &[Linear, Gimp, Bspline2]), "cfl=5")
-}
-
-fn sketch() -> Sketch {
-    let (end, top) = (HALF, DEPTH);
-    Sketch::of("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.")
-        .body([[0.0, 0.0], [end, 0.0], [end, top], [0.0, top]])
-        .held([0.0, 0.0], [0.0, top])
-        .load([0.1, 0.25], [0.1, 0.15])
-        .load([0.95, 0.15], [0.95, 0.25])
-        .length([0.0, -0.08], [end, -0.08], "1 m, half of it")
-        .length([1.1, 0.0], [1.1, top], "0.1 m")
 }
 
 type Beam<'a> = Run<'a, Thin>;
