@@ -123,6 +123,11 @@ impl<P> Setup<P> {
         self.rule().is_some()
     }
 
+    /// Whether steps are of equilibrium.
+    pub fn is_static(&self) -> bool {
+        self.rule() == Some(RuleName::QuasiStatic)
+    }
+
     /// Whether the case's own parameters were changed in nothing.
     pub fn is_default(&self) -> bool {
         self.set.is_empty()

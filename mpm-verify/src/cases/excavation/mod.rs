@@ -173,8 +173,7 @@ fn plan() -> Plan {
         .each(Pr, "h0.1", midpoint, ["duration=0.5 residual=5e3", "base=friction duration=0.25"])
         .each(Pr, "h0.1", means, ["residual=5e3", "peak=1e3 residual=1e3 gravity=step", SLIPPERY_PERFECT])
         .runs(Nightly, two, &moving, "")
-        .runs(Nightly, three, &resting, "")
-        .runs(Nightly, three, &resting, "gravity=step")
+        .each(Nightly, three, &resting, ["", "gravity=step"])
         .runs(Nightly, two, &resting, "residual=5e3")
         // The paper's bilinear elements.
         .runs(Nightly, two, &bilinear, "")

@@ -52,10 +52,6 @@ impl Stage {
 }
 
 impl Setup<Excavation> {
-    pub(super) fn is_static(&self) -> bool {
-        self.rule() == Some(QuasiStatic)
-    }
-
     pub(super) fn slides(&self) -> bool {
         self.base == Base::Frictional
     }

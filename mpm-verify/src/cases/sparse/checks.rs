@@ -22,10 +22,6 @@ const COARSE: f64 = 0.1;
 type Cloud<'a> = Run<'a, Sparse>;
 
 impl Cloud<'_> {
-    fn is_static(&self) -> bool {
-        self.rule() == Some(RuleName::QuasiStatic)
-    }
-
     /// Whether theory applies to the scheme.
     fn is_plain(&self) -> bool {
         let four = self.ppc_per_direction >= 2;

@@ -74,30 +74,21 @@ fn plan() -> Plan {
     let [two, three, four] = [2, 3, 4].map(|n| format!("ppc_per_direction={n}"));
     let layout = |name: &str, number: &String| format!("layout={name} {number}");
     let lattice = [layout("lattice", &two), layout("lattice", &three)];
-    let random = [two.clone(), three.clone()];
     let better = [layout("jittered", &two), layout("jittered", &three), layout("holes", &two), layout("holes", &three)];
     let sixteen = [layout("lattice", &four), four.clone(), layout("jittered", &four), layout("holes", &four)];
     Plan::of(levels(1.0, [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)]))
         .runs(Quick, "n8", &splines, &two)
-        .runs(Pr, "n8", &few, "")
-        .runs(Pr, "n8", &few, &two)
-        .runs(Pr, "n8 n16 n32", &splines, &lattice[0])
-        .runs(Pr, "n8 n16 n32", &splines, &two)
-        .runs(Pr, "n16", &splines, &lattice[1])
-        .runs(Pr, "n16", &splines, &three)
+        .each(Pr, "n8", &few, ["", &two])
+        .each(Pr, "n8 n16 n32", &splines, [&lattice[0], &two])
+        .each(Pr, "n16", &splines, [&lattice[1], &three])
         .runs(Nightly, "n8 n16", &few, "")
         .runs(Nightly, "n8", &all, "")
-        .runs(Nightly, "n8 n16 n32", &all, &two)
-        .runs(Nightly, "n8 n16 n32", &all, &lattice[0])
+        .each(Nightly, "n8 n16 n32", &all, [&two, &lattice[0]])
         .runs(Nightly, "n16", &moving, "")
-        .runs(Nightly, "n8 n16 n32", &moving, &two)
-        .runs(Nightly, "n8 n16 n32", &moving, &lattice[0])
+        .each(Nightly, "n8 n16 n32", &moving, [&two, &lattice[0]])
         .runs(Nightly, "n8 n16 n32", &splines, &layout("scattered", &two))
         .each(Pr, "n16", &splines, &better)
-        .each(Nightly, "n16 n32", &splines, &lattice)
-        .each(Nightly, "n16 n32", &splines, &random)
-        .each(Nightly, "n16 n32", &splines, &better)
-        .each(Nightly, "n16 n32", &splines, &sixteen)
+        .each(Nightly, "n16 n32", &splines, lattice.iter().chain([&two, &three]).chain(&better).chain(&sixteen))
 }
 
 fn tables() -> Vec<ResultTable> {
