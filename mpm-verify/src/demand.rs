@@ -86,6 +86,29 @@ impl<P> Gate<P> {
     }
 }
 
+/// Terms of a check, and of one quantity of it.
+macro_rules! terms {
+    () => {
+        /// Says nothing of runs where `holds` is false.
+        pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Held) -> Self {
+            self.gates.push(Gate::When(Box::new(holds)));
+            self
+        }
+
+        /// Does not judge a run where there is a reason.
+        pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Held) -> Self {
+            self.gates.push(Gate::Unless(Box::new(reason)));
+            self
+        }
+
+        /// The magnitude of a wrong value, where the reference is zero or a difference.
+        pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
+            let scale: Of<P, f64> = Box::new(scale);
+            Self { scale: Some(scale), ..self }
+        }
+    };
+}
+
 /// One quantity of a check with its bound.
 pub(crate) struct Demand<P> {
     quantity: Quantity<P>,
@@ -120,23 +143,7 @@ impl<P: ParameterSet> Demand<P> {
         Self::new(quantity.into(), Bound::Above(Box::new(bound)))
     }
 
-    /// Says nothing of this quantity where `holds` is false.
-    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Held) -> Self {
-        self.gates.push(Gate::When(Box::new(holds)));
-        self
-    }
-
-    /// Does not judge this quantity where there is a reason.
-    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Held) -> Self {
-        self.gates.push(Gate::Unless(Box::new(reason)));
-        self
-    }
-
-    /// The magnitude of a wrong value, where the reference is zero or a difference.
-    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
-        let scale: Of<P, f64> = Box::new(scale);
-        Self { scale: Some(scale), ..self }
-    }
+    terms!();
 
     /// The source of reference and tolerance, where it differs from that of the check.
     pub(crate) fn because_of(self, why: impl Fn(&Run<P>) -> String + Held) -> Self {
@@ -230,17 +237,7 @@ impl<P: ParameterSet> CheckOf<P> {
         Self::new(Kind::Bookkeeping, name, statement)
     }
 
-    /// Says nothing of runs where `holds` is false.
-    pub(crate) fn when(mut self, holds: impl Fn(&Run<P>) -> bool + Held) -> Self {
-        self.gates.push(Gate::When(Box::new(holds)));
-        self
-    }
-
-    /// Does not judge a run where there is a reason.
-    pub(crate) fn unless(mut self, reason: impl Fn(&Run<P>) -> Option<String> + Held) -> Self {
-        self.gates.push(Gate::Unless(Box::new(reason)));
-        self
-    }
+    terms!();
 
     /// |quantity − reference| ≤ tolerance.
     pub(crate) fn within(
@@ -269,12 +266,6 @@ impl<P: ParameterSet> CheckOf<P> {
             _ => self.subject = Subject::Run(demands.into_iter().collect()),
         }
         self
-    }
-
-    /// The magnitude of a wrong value, where the reference is zero or a difference.
-    pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
-        let scale: Of<P, f64> = Box::new(scale);
-        Self { scale: Some(scale), ..self }
     }
 
     /// The order of `metric` is at least the `formal` one less [`SLACK`], over the three finest runs of each scheme among those

@@ -72,6 +72,12 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     }
 }
 
+/// Panels `at` every time (s) of an animation with frames this far apart (s), up to the first without any.
+pub(super) fn frames<T>(apart: f64, at: impl Fn(f64) -> Result<Vec<T>, Error>) -> Result<Vec<Vec<T>>, Error> {
+    let frames = (1..).map(|k| at(f64::from(k) * apart));
+    frames.take_while(|frame| !frame.as_ref().is_ok_and(Vec::is_empty)).collect()
+}
+
 /// A column of particles as a panel, without an outline.
 pub(super) fn field_panel(record: &Record, table: &Table, title: impl Into<String>, column: &str) -> FieldPanel {
     FieldPanel {

@@ -1,7 +1,7 @@
 //! Figures: the paper's Figure 12, the flow against time, an animation.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, remedy_title};
+use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, frames, remedy_title};
 use crate::draw::{animate_fields, signed};
 use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
@@ -73,13 +73,9 @@ fn figure(panels: Vec<FieldPanel>, columns: usize) -> Fields {
 
 fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let Some(level) = runs.level(basis, &SHOWN, &PREFERRED) else { return Ok(()) };
-    let mut columns = Vec::new();
-    for time in TIMES {
-        let column = column(runs, (basis, level), time)?;
-        if !column.is_empty() {
-            columns.push(column);
-        }
-    }
+    let columns = TIMES.iter().map(|time| column(runs, (basis, level), *time));
+    let mut columns = columns.collect::<Result<Vec<_>, Error>>()?;
+    columns.retain(|column| !column.is_empty());
     if columns.is_empty() {
         return Ok(());
     }
@@ -95,14 +91,8 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
 
 fn animation(runs: &mut Exhibit) -> Result<(), Error> {
     let Some(level) = runs.level(Gimp, &SHOWN, &PREFERRED) else { return Ok(()) };
-    let mut frames = Vec::new();
-    for k in 1.. {
-        let column = column(runs, (Gimp, level), f64::from(k) * FRAME)?;
-        if column.is_empty() {
-            break;
-        }
-        frames.push(figure(column, SHOWN.len()).0);
-    }
+    let columns = frames(FRAME, |time| column(runs, (Gimp, level), time))?;
+    let frames: Vec<FieldFigure> = columns.into_iter().map(|column| figure(column, SHOWN.len()).0).collect();
     if frames.is_empty() {
         return Ok(());
     }

@@ -1,7 +1,7 @@
 //! Figures of the landslide: the paper's Figures 14 to 16, in plane strain and in three dimensions.
 
 use super::*;
-use crate::cases::pictures::{basis_title, is_shown, remedy_title, spacing};
+use crate::cases::pictures::{Exhibit, basis_title, frames, remedy_title, spacing};
 use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids, signed};
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
@@ -78,44 +78,23 @@ impl Shown {
     }
 }
 
-/// The runs that are shown.
-struct ShownRuns<'a> {
-    records: Vec<&'a Record>,
-}
-
-impl<'a> ShownRuns<'a> {
-    /// The runs of the case itself, those that change least and the finest first.
-    fn of(records: &'a [Record]) -> Self {
-        let own = |r: &&Record| r.is_default() || r.changes_only("duration");
-        let mut records: Vec<_> = records.iter().filter(own).filter(is_shown).collect();
-        records.sort_by(|a, b| {
-            let by_size = a.discretisation.h.total_cmp(&b.discretisation.h);
-            a.set.len().cmp(&b.set.len()).then(by_size)
-        });
-        Self { records }
-    }
-
-    fn find(&self, basis: BasisName, remedy: RemedyName, level: &str) -> Option<&'a Record> {
-        let own = |r: &&&Record| r.basis() == basis && r.remedy() == remedy && r.level == level;
-        self.records.iter().find(own).copied()
-    }
-
+impl<'g> Exhibit<'_, 'g> {
     /// The runs of all remedies with a basis at a level.
-    fn remedies(&self, basis: BasisName, level: &str) -> impl Iterator<Item = &'a Record> {
+    fn remedies(&self, basis: BasisName, level: &str) -> impl Iterator<Item = &'g Record> {
         REMEDIES.into_iter().filter_map(move |remedy| self.find(basis, remedy, level))
     }
 
     /// Levels at which remedies can be compared with a basis, the longest runs and the finest first.
-    fn levels(&self, basis: BasisName) -> Vec<&'a str> {
+    fn levels(&self, basis: BasisName) -> Vec<&'g str> {
         let compares = |r: &&&Record| COMPARED.iter().all(|&remedy| self.find(basis, remedy, &r.level).is_some());
         crate::distinct(self.records.iter().filter(compares).map(|r| &*r.level))
     }
 
     /// All runs with a basis at a level, at `time` (s); none if a run has not kept it.
-    fn at(&self, gallery: &Gallery, (basis, level): (BasisName, &str), time: f64) -> Result<Vec<Shown>, Error> {
+    fn at(&self, (basis, level): (BasisName, &str), time: f64) -> Result<Vec<Shown>, Error> {
         let mut shown = Vec::new();
         for record in self.remedies(basis, level) {
-            let Some(particles) = gallery.snapshot(record, time)? else { return Ok(Vec::new()) };
+            let Some(particles) = self.gallery.snapshot(record, time)? else { return Ok(Vec::new()) };
             shown.push(Shown {
                 title: format!("{}, {time:.1} s", remedy_title(record.remedy())),
                 spacing: spacing(record),
@@ -129,7 +108,14 @@ impl<'a> ShownRuns<'a> {
 
 /// Draws all figures of which there are runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let runs = ShownRuns::of(gallery.records);
+    let own = |r: &&Record| r.is_default() || r.changes_only("duration");
+    let records = gallery.records.iter().filter(own);
+    let mut runs = Exhibit::new(gallery, records);
+    // Those that change least and the finest come first.
+    runs.records.sort_by(|a, b| {
+        let by_size = a.discretisation.h.total_cmp(&b.discretisation.h);
+        a.set.len().cmp(&b.set.len()).then(by_size)
+    });
     for basis in BASES {
         let compared = runs.levels(basis).first().copied();
         // The finest level of all, if other remedies have yet to run on it.
@@ -138,29 +124,21 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         for field in &FIELDS {
             let name = format!("{}-{basis}", field.name);
             if let Some(level) = compared {
-                snapshots(gallery, &runs, (basis, level), field, &name)?;
+                snapshots(&mut runs, (basis, level), field, &name)?;
             }
             if let Some(level) = finest {
-                snapshots(gallery, &runs, (basis, level), field, &format!("{name}-{level}"))?;
+                snapshots(&mut runs, (basis, level), field, &format!("{name}-{level}"))?;
             }
         }
     }
-    run_out(gallery, &runs)?;
-    animation(gallery, &runs)
+    run_out(&mut runs)?;
+    animation(&mut runs)
 }
 
 /// A field at all times, a row for each remedy: in three dimensions the solid and the section in its middle.
-fn snapshots(
-    gallery: &mut Gallery,
-    runs: &ShownRuns,
-    (basis, level): (BasisName, &str),
-    field: &Field,
-    name: &str,
-) -> Result<(), Error> {
-    let mut times = Vec::new();
-    for time in TIMES {
-        times.push(runs.at(gallery, (basis, level), time)?);
-    }
+fn snapshots(runs: &mut Exhibit, (basis, level): (BasisName, &str), field: &Field, name: &str) -> Result<(), Error> {
+    let times = TIMES.iter().map(|time| runs.at((basis, level), *time));
+    let mut times = times.collect::<Result<Vec<_>, Error>>()?;
     times.retain(|shown| !shown.is_empty());
     let (columns, rows) = (times.len(), times.first().map_or(0, Vec::len));
     let row = |row| times.iter().map(move |shown: &Vec<Shown>| &shown[row]);
@@ -178,17 +156,17 @@ fn snapshots(
     let mut file = format!("{name}.png");
     let mut place = "";
     if panels.iter().all(|shown| shown.is_solid()) {
-        draw_solids(&gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
-        gallery.hang(&file, caption(""));
+        draw_solids(&runs.gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
+        runs.gallery.hang(&file, caption(""));
         (file, place) = (format!("section-{file}"), ", in the middle of the width");
     }
-    draw_fields(&gallery.place(&file), &fields(title.clone(), &panels, columns, field))?;
-    gallery.hang(&file, caption(place));
+    draw_fields(&runs.gallery.place(&file), &fields(title.clone(), &panels, columns, field))?;
+    runs.gallery.hang(&file, caption(place));
     Ok(())
 }
 
 /// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
-fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
+fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
     let quantities = [
         ("toe", (1.0, TOE), "run-out (m)"),
         ("settlement", (1.0, 0.0), "settlement of the crest (m)"),
@@ -202,7 +180,7 @@ fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
         let of = basis_title(basis);
         // Since the reduction of the strength.
         let panel = |title: &str, records: Vec<_>, (column, (factor, start), label)| {
-            Panel::new(format!("{of}, {title}"), ["time (s)", label]).histories(gallery, records, |_, table| {
+            Panel::new(format!("{of}, {title}"), ["time (s)", label]).histories(runs.gallery, records, |_, table| {
                 let mut points = table.points("time", column);
                 points.retain(|(time, _)| *time >= 0.0);
                 points.iter().map(|(time, value)| (*time, factor * (value - start))).collect()
@@ -230,26 +208,19 @@ fn run_out(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
     )
     .columns(quantities.len())
     .share_axes_of_columns()
-    .draw(gallery)
+    .draw(runs.gallery)
 }
 
 /// The plastic strain with GIMP, frame by frame, of the finest level that has kept frames.
-fn animation(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
+fn animation(runs: &mut Exhibit) -> Result<(), Error> {
     let field = &FIELDS[0];
     for level in runs.levels(Gimp) {
-        let mut frames = Vec::new();
-        for k in 1.. {
-            let shown = runs.at(gallery, (Gimp, level), f64::from(k) * FRAME)?;
-            if shown.is_empty() {
-                break;
-            }
-            frames.push(shown);
-        }
+        let frames = frames(FRAME, |time| runs.at((Gimp, level), time))?;
         if frames.len() < LEAST_FRAMES {
             continue;
         }
         let panels = frames.iter().map(|shown| shown.iter().collect::<Vec<_>>());
-        let path = gallery.place("slide.png");
+        let path = runs.place("slide");
         if frames.iter().flatten().all(Shown::is_solid) {
             let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
             animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
@@ -258,7 +229,7 @@ fn animation(gallery: &mut Gallery, runs: &ShownRuns) -> Result<(), Error> {
             animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
         }
         let (level, label) = (level_title(level), field.label);
-        gallery.hang("slide.png", format!("The slide with GIMP, {level}: {label}."));
+        runs.hang("slide", format!("The slide with GIMP, {level}: {label}."));
         break;
     }
     Ok(())
