@@ -8,7 +8,7 @@ use crate::report::describe::{drift_line, verdict_line};
 use crate::run::checkpoint::Saving;
 use crate::study::gather::Gathered;
 use crate::study::judge::outcome_of_run;
-use crate::study::plan::PlannedRun;
+use crate::study::plan::resolve_record;
 use crate::study::schedule::{Listener, TWIN, Task, run_all};
 use crate::study::summary::CaseStudy;
 use crate::verdict::{Outcome, Verdict};
@@ -100,14 +100,7 @@ impl<'a> Candidates<'a> {
     ) -> Result<Blessing, Error> {
         let mut tasks = Vec::new();
         for record in &self.drifted {
-            let run = PlannedRun {
-                case: record.case.clone(),
-                scheme: record.scheme(),
-                level: record.level.clone(),
-                set: record.set.clone(),
-                shard: 1,
-            };
-            let (case, mut spec) = run.resolve()?;
+            let (case, mut spec) = resolve_record(record)?;
             spec.perturbed = true;
             tasks.push(Task { case, spec, folder: gathered.folder(record)?.join(TWIN) });
         }

@@ -52,17 +52,7 @@ impl Gathered {
     fn read_single(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(RECORD);
         let record: Record = read_versioned(&path, record::SCHEMA)?;
-        let known = || -> Result<_, Error> {
-            let case = cases::find(&record.case)?;
-            let spec = RunSpec {
-                scheme: record.scheme(),
-                level: find_level(case, &record.level)?,
-                set: record.set.clone(),
-                perturbed: record.perturbed,
-            };
-            Ok((case, spec))
-        };
-        let (case, spec) = known().map_err(|e| Error::file(&path, e))?;
+        let (case, spec) = plan::resolve_record(&record).map_err(|e| Error::file(&path, e))?;
         Ok(Self::single(record_in(folder, case, &spec)?.unwrap_or(record), folder))
     }
 

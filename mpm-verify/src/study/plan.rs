@@ -80,15 +80,20 @@ impl PlannedRun {
     /// # Errors
     /// The case or the level is not known to this program.
     pub fn resolve(&self) -> Result<(&'static Case, RunSpec), Error> {
-        let case = cases::find(&self.case)?;
-        let spec = RunSpec {
-            scheme: self.scheme,
-            level: find_level(case, &self.level)?,
-            set: self.set.clone(),
-            perturbed: false,
-        };
-        Ok((case, spec))
+        resolve(&self.case, self.scheme, &self.level, &self.set)
     }
+}
+
+/// The case and what to run of it, by the names of case and level.
+fn resolve(case: &str, scheme: Scheme, level: &str, set: &[String]) -> Result<(&'static Case, RunSpec), Error> {
+    let case = cases::find(case)?;
+    Ok((case, RunSpec { scheme, level: find_level(case, level)?, set: set.to_vec(), perturbed: false }))
+}
+
+/// The case of a record and what was run of it.
+pub(crate) fn resolve_record(r: &Record) -> Result<(&'static Case, RunSpec), Error> {
+    let (case, spec) = resolve(&r.case, r.scheme(), &r.level, &r.set)?;
+    Ok((case, RunSpec { perturbed: r.perturbed, ..spec }))
 }
 
 /// The plan of a folder of runs; it is written there before the first run begins.
