@@ -20,8 +20,8 @@ pub(crate) use crate::probe::PointProbe;
 pub(crate) use crate::problem::{Begun, Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};
 pub(crate) use crate::results::{
-    BASIS, CELLS, CHANGED, Column, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent, scientific,
-    share, word,
+    BASIS, CELLS, CHANGED, Column, LEVEL, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent,
+    scientific, share, word,
 };
 pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};
 pub(crate) use crate::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, FbarTotal};

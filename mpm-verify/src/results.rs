@@ -216,6 +216,8 @@ pub(crate) const PAIR: Label = ("scheme", |r| Scheme::flip(r.basis(), r.remedy()
 pub(crate) const CHANGED: Label = ("changed", |r| r.set.join(", "));
 /// The cell size of a row.
 pub(crate) const CELLS: Label = ("h", |r| format!("{} m", r.level.trim_start_matches('h')));
+/// The level of a row.
+pub(crate) const LEVEL: Label = ("level", |r| r.level.clone());
 /// The basis of a row.
 pub(crate) const BASIS: Label = ("", |r| r.basis().to_string());
 

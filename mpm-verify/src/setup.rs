@@ -4,7 +4,7 @@
 use crate::error::Error;
 use crate::metric::Metric;
 use crate::parameter::{ParameterSet, Parameters};
-use crate::record::Record;
+use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
 use crate::spec::RunSpec;
 use std::ops::Deref;
@@ -163,6 +163,11 @@ impl<'a, P: ParameterSet> Run<'a, P> {
     /// The runs of records whose parameters are of the case's types; the checks of a run name the others.
     pub(crate) fn all(records: impl IntoIterator<Item = &'a Record>) -> impl Iterator<Item = Self> {
         records.into_iter().filter_map(|record| Self::of(record).ok())
+    }
+
+    /// Those that have come to their end.
+    pub(crate) fn ended(records: &'a [Record]) -> Vec<Self> {
+        Self::all(records.iter().filter(|r| r.status == Status::Ok)).collect()
     }
 }
 

@@ -20,7 +20,6 @@ const GROWN: f64 = 100.0;
 /// ½ m (ε L/Δt)² times the number of steps.
 const ROUNDING: f64 = 1e-12;
 
-#[derive(Debug, Clone)]
 struct WaterColumn;
 
 impl Known for WaterColumn {

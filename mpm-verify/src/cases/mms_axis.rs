@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::axis_aligned::{ENTRY, HALF_WAVES};
 
-#[derive(Debug, Clone)]
 struct Axes;
 
 impl Known for Axes {

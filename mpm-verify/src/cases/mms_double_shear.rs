@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::double_shear::ENTRY;
 
-#[derive(Debug, Clone)]
 struct DoubleShear;
 
 impl Known for DoubleShear {

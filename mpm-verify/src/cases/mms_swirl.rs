@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::swirl::ENTRY;
 
-#[derive(Debug, Clone)]
 struct Swirl;
 
 impl Known for Swirl {

@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::vortex_box::ENTRY;
 
-#[derive(Debug, Clone)]
 struct Vortex;
 
 impl Known for Vortex {

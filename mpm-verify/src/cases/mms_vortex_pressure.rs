@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::vortex_pressure::ENTRY;
 
-#[derive(Debug, Clone)]
 struct PressedVortex;
 
 impl Known for PressedVortex {

@@ -6,7 +6,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::vortex_ring::{ANGLE, ENTRY};
 
-#[derive(Debug, Clone)]
 struct Ring;
 
 impl Known for Ring {

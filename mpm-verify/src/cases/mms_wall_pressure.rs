@@ -7,7 +7,6 @@ use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::wall_pressure::ENTRY;
 
-#[derive(Debug, Clone)]
 struct WallPressure;
 
 impl Known for WallPressure {

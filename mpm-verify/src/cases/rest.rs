@@ -17,7 +17,6 @@ const BEATS: f64 = 2.0;
 /// ½ m (ε L/Δt)² times the number of steps.
 const ROUNDING: f64 = 1e-14;
 
-#[derive(Debug, Clone)]
 struct Incline;
 
 impl Known for Incline {

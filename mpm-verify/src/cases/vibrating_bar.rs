@@ -18,7 +18,6 @@ const HALF: f64 = 0.5;
 const GONE: f64 = 0.05;
 
 /// The wave of a bar whose ends are held.
-#[derive(Debug, Clone)]
 struct Bar;
 
 impl Known for Bar {

@@ -124,13 +124,8 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-/// Runs that have come to their end, in the order of the plan.
-fn ended(records: &[Record]) -> Vec<Beam<'_>> {
-    Run::all(records.iter().filter(|r| r.status == Status::Ok)).collect()
-}
-
 fn falls(records: &[Record]) -> Vec<Finding> {
-    let runs = ended(records);
+    let runs = Beam::ended(records);
     let own = |b: &&Beam| b.is_splines() && b.is_default();
     let mut own: Vec<&Beam> = runs.iter().filter(own).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
@@ -143,7 +138,7 @@ fn falls(records: &[Record]) -> Vec<Finding> {
 }
 
 fn steps(records: &[Record]) -> Vec<Finding> {
-    let runs = ended(records);
+    let runs = Beam::ended(records);
     let at = |steps: i32| {
         let own = |b: &&Beam| b.record.changes_none_but(&["load_steps"]) && b.is_splines() && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)
@@ -156,7 +151,7 @@ fn steps(records: &[Record]) -> Vec<Finding> {
 }
 
 fn diverges(records: &[Record]) -> Vec<Finding> {
-    let runs = ended(records);
+    let runs = Beam::ended(records);
     let of_q8 = |b: &&Beam| b.basis() == Q8 && b.set == ["stabilisation=soft"];
     let mut own: Vec<&Beam> = runs.iter().filter(of_q8).collect();
     own.sort_by(|a, b| b.h.total_cmp(&a.h));
@@ -172,7 +167,7 @@ fn diverges(records: &[Record]) -> Vec<Finding> {
 }
 
 fn linear_update(records: &[Record]) -> Vec<Finding> {
-    let runs = ended(records);
+    let runs = Beam::ended(records);
     let at = |steps: i32| {
         let own = |b: &&Beam| b.law == LawName::JaumannLinear && b.basis() == Bspline2 && b.level == "h0.05";
         runs.iter().filter(own).find(|b| b.load_steps == steps)

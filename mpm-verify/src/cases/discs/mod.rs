@@ -323,7 +323,6 @@ fn tables() -> Vec<ResultTable> {
     const CONTACT: Label = ("contact", |r| word(r, "contact", "grid"));
     const OFFSET: Label = ("offset (m)", |r| number(r, |d| d.offset).to_string());
     const LUMPED: Label = ("β", |r| number(r, |d| d.lumped).to_string());
-    const LEVEL: Label = ("level", |r| r.level.clone());
     const SPEED: Label = ("speed (m/s)", |r| number(r, |d| d.speed).to_string());
     const STEP: Label = ("Δt / 2.5 ms", |r| number(r, |d| d.step_factor.value()).to_string());
     let at = |offset: f64| move |r: &Record| number(r, |d| d.offset) == offset;

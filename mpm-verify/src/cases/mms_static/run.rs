@@ -12,7 +12,6 @@ parameters! { const:
 }
 
 /// The motion, whose angle grows to its amplitude over a quarter of the period.
-#[derive(Debug, Clone)]
 pub(super) struct SlowVortex;
 
 impl Known for SlowVortex {

@@ -75,7 +75,7 @@ pub(super) fn case() -> Case {
             .note([0.0, 0.0], "0.1 c at the rim")
             .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m"))
         .cost(cost)
-        .tables(tables())
+        .table(table())
         .breaks_down(breaks_down)
 }
 
@@ -201,18 +201,16 @@ fn checks() -> Vec<Check> {
     ]
 }
 
-fn tables() -> Vec<ResultTable> {
+fn table() -> ResultTable {
     const BLEND: Label = ("η", |r| Setup::<Disc>::number_of(r, |d| d.flip).to_string());
     const TURNED: Label = ("turns", |r| Setup::<Disc>::number_of(r, |d| d.turns).to_string());
-    const CELLS: Label = ("level", |r| r.level.clone());
-    let columns = [
-        Column::metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT),
-        Column::metric("energy at the end", ENERGY_END, percent(2)),
-        Column::metric("gain", ENERGY_GAIN, percent(3)),
-        Column::metric("stretch, mean", STRETCH_MEAN_ERROR, percent(1)),
-        Column::metric("largest", STRETCH_ERROR, percent(1)),
-        Column::metric("angle", PHASE_ERROR, percent(2)),
-    ];
     let shows = |r: &Record| r.changes_none_but(&["flip", "turns"]) && Setup::<Disc>::number_of(r, |d| d.turns) >= 10.0;
-    vec![ResultTable::new("spin", shows, &[SCHEME, BLEND, TURNED, CELLS], columns)]
+    ResultTable::of("spin", shows)
+        .by(&[SCHEME, BLEND, TURNED, LEVEL])
+        .metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT)
+        .metric("energy at the end", ENERGY_END, percent(2))
+        .metric("gain", ENERGY_GAIN, percent(3))
+        .metric("stretch, mean", STRETCH_MEAN_ERROR, percent(1))
+        .metric("largest", STRETCH_ERROR, percent(1))
+        .metric("angle", PHASE_ERROR, percent(2))
 }
