@@ -20,7 +20,7 @@ pub(crate) use crate::probe::PointProbe;
 pub(crate) use crate::problem::{Begun, Columns, Phase, Problem, Rows};
 pub(crate) use crate::record::{Discretisation, Record, Status, WorkDone};
 pub(crate) use crate::results::{
-    BASIS, CELLS, CHANGED, Column, LEVEL, Label, PAIR, ResultTable, SCHEME, SHORT, fixed, is_flip, order, percent,
+    BASIS, CELLS, CHANGED, Column, LEVEL, Label, PAIR, ResultTable, SCHEME, SET, SHORT, fixed, is_flip, order, percent,
     scientific, share, word,
 };
 pub(crate) use crate::scheme::BasisName::{Bspline2, Bspline3, Gimp, Linear};

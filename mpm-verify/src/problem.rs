@@ -100,6 +100,10 @@ pub trait Problem<const D: usize>: Sized + Send {
     fn snapshot(&self, _seen: &Self::Seen, _phase: &mut Phase<D>) -> Option<Snapshot> {
         None
     }
+    /// What is kept of the particles at the end, at a time (s).
+    fn snapshot_at(&self, time: f64, seen: &Self::Seen, phase: &mut Phase<D>) -> Snapshot {
+        Snapshot { time, columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done() }
+    }
     /// Adds what is kept of the particles at the end to the `columns` with their positions.
     fn particles<'a>(&self, _seen: &Self::Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
         columns

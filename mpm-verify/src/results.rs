@@ -213,7 +213,9 @@ pub(crate) const SCHEME: Label = ("scheme", |r| r.scheme().title());
 /// The scheme of a row without its transfer.
 pub(crate) const PAIR: Label = ("scheme", |r| Scheme::flip(r.basis(), r.remedy()).title());
 /// The parameters of a row that are not the case's own.
-pub(crate) const CHANGED: Label = ("changed", |r| r.set.join(", "));
+pub(crate) const SET: Label = ("changed", |r| r.set.join(", "));
+/// The same, and a dash if there are none.
+pub(crate) const CHANGED: Label = ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") });
 /// The cell size of a row.
 pub(crate) const CELLS: Label = ("h", |r| format!("{} m", r.level.trim_start_matches('h')));
 /// The level of a row.

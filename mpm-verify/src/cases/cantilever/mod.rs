@@ -199,14 +199,11 @@ fn tables() -> Vec<ResultTable> {
         let exact = setup.and_then(|c| solution(&c)).map_or(f64::NAN, |s| s.bottom_right[1]);
         percent(2).text(r.metric(CORNER_UY) / exact - 1.0)
     }
-    fn or_dash(changed: &[&str]) -> String {
-        if changed.is_empty() { "–".to_owned() } else { changed.join(", ") }
-    }
     const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));
     const LAW: Label = ("law", |r| word(r, "law", "hencky"));
-    const CHANGED: Label = ("changed", |r| or_dash(&r.set.iter().map(String::as_str).collect::<Vec<_>>()));
     const BESIDE_PAPER: Label = ("changed", |r| {
-        or_dash(&r.set.iter().map(String::as_str).filter(|set| !PAPER.contains(set)).collect::<Vec<_>>())
+        let changed: Vec<&str> = r.set.iter().map(String::as_str).filter(|set| !PAPER.contains(set)).collect();
+        if changed.is_empty() { "–".to_owned() } else { changed.join(", ") }
     });
     // The penalty as a share of G = E/2.
     const ALPHA: Label = ("α_u", |r| format!("{}", 2.0 * Setup::<Cantilever>::number_of(r, |c| c.ghost)));

@@ -289,7 +289,7 @@ fn tables() -> Vec<ResultTable> {
             .columns(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s))),
         // Effect of a held rim, of a single step and of a larger load.
         ResultTable::of("cook-rim", |r| is_static(r) && r.level == "h1")
-            .by(&[SCHEME, ("changed", |r| if r.is_default() { "–".to_owned() } else { r.set.join(", ") })])
+            .by(&[SCHEME, CHANGED])
             .text("mid-edge error", error)
             .value("of the load at its place", checks::mid_edge_error, percent(2))
             .metric("mid-edge u_y (m)", MID_EDGE_UY, fixed(4))

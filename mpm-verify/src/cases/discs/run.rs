@@ -298,10 +298,7 @@ impl Problem<2> for Collision {
     }
 
     fn snapshot(&self, seen: &Extremes, phase: &mut Phase<2>) -> Option<Snapshot> {
-        (seen.rows == IN_CONTACT).then(|| Snapshot {
-            time: phase.run.time(),
-            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
-        })
+        (seen.rows == IN_CONTACT).then(|| self.snapshot_at(phase.run.time(), seen, phase))
     }
 
     fn particles<'a>(&self, _: &Extremes, columns: Columns<'a, 2>) -> Columns<'a, 2> {

@@ -134,7 +134,7 @@ fn checks() -> Vec<Check> {
 fn table() -> ResultTable {
     let shows = |r: &Record| r.level == "n8" && matches!(r.basis(), Gimp | Bspline2) && r.remedy() == RemedyName::None;
     ResultTable::of("drop", shows)
-        .by(&[SCHEME, CHANGED])
+        .by(&[SCHEME, SET])
         .metric("energy gain", ENERGY_GAIN, SHORT)
         .metric("at the end", ENERGY_END, share(1))
         .metric("least gap", LEAST_GAP, fixed(3))

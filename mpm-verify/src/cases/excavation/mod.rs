@@ -279,11 +279,6 @@ fn differs_by_level(records: &[Record]) -> Vec<Finding> {
         .collect()
 }
 
-const CHANGED: Label = ("changed", |r| match r.set.is_empty() {
-    true => "–".to_owned(),
-    false => r.set.join(", "),
-});
-
 fn is_static(r: &Record) -> bool {
     r.scheme().rule() == Some(RuleName::QuasiStatic)
 }

@@ -330,10 +330,8 @@ impl Problem<2> for Ground {
 
     fn snapshot(&self, seen: &Seen, phase: &mut Phase<2>) -> Option<Snapshot> {
         let time = phase.run.time();
-        (seen.stage.moves() && KEPT.iter().any(|kept| (time - kept).abs() < 1e-6)).then(|| Snapshot {
-            time: seen.before + time,
-            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
-        })
+        (seen.stage.moves() && KEPT.iter().any(|kept| (time - kept).abs() < 1e-6))
+            .then(|| self.snapshot_at(seen.before + time, seen, phase))
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 2>) -> Columns<'a, 2> {

@@ -1,7 +1,7 @@
 //! Observations of a slide, and the metrics that follow from them.
 
 use super::*;
-use crate::cases::slope::section::{GRAVITY, Section};
+use crate::cases::slope::section::Section;
 
 /// Ground that has moved by this share of the height since the release has failed.
 const MOVED: f64 = 0.05;
@@ -230,11 +230,6 @@ impl Series {
             (LOG_JACOBIAN_GAP, end(&|row| row.log_jacobian_gap)),
         ]
     }
-}
-
-/// Potential energy (J) of particles under gravity.
-pub(super) fn potential<const D: usize>(particles: &Particles<D>) -> f64 {
-    particles.mass.iter().zip(&particles.position).map(|(m, x)| m * GRAVITY * x[1]).sum()
 }
 
 /// Largest range, over the width, of the distances `moved` (m) of the particles of one place, over the largest of these

@@ -10,7 +10,7 @@ mod plane_strain;
 mod run;
 mod tables;
 
-use super::slope;
+use super::slope::{self, REMEDIES};
 use crate::cases::prelude::*;
 use crate::problem;
 use plane_strain::Beside;
@@ -20,8 +20,6 @@ const LEVELS_2D: [Level; 4] =
     [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1), Level::new("h0.05", 0.05)];
 const LEVELS_3D: [Level; 4] =
     [Level::new("h0.5", 0.5), Level::new("slice-h0.4", 0.4), Level::new("h0.25", 0.25), Level::new("h0.2", 0.2)];
-/// Standard, the paper's, ours.
-const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 const REDUCTION: Parameter = real("-", "1.65", 1.0, 100.0)
     .named("reduction")
     .meaning("factor by which the peak strength is divided after the gravity stage");

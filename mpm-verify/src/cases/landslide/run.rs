@@ -1,6 +1,6 @@
 //! A slide in plane strain or in three dimensions: gravity, then the reduced strength.
 
-use super::look::{Look, Series, State, potential, spread_over_width};
+use super::look::{Look, Series, State, spread_over_width};
 use super::*;
 use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
@@ -163,7 +163,8 @@ impl<const D: usize> Slide<D> {
     fn observe(&self, seen: &Seen, run: &mut dyn Simulation<D>) -> Result<State, Fault> {
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let look = self.look(&positions, &plastic_strain);
-        let totals = run.totals();
+        let (totals, p) = (run.totals(), run.particles());
+        let potential: f64 = p.mass.iter().zip(&p.position).map(|(m, x)| m * GRAVITY * x[1]).sum();
         let per_metre = 1.0 / self.ground.width;
         let volume = self.ground.spacing.powi(D as i32);
         let dissipated = self.dissipated(seen, &plastic_strain)?;
@@ -173,7 +174,7 @@ impl<const D: usize> Slide<D> {
             bulk_toe: look.bulk_toe(),
             settlement: look.settlement(),
             kinetic: per_metre * totals.kinetic_energy,
-            potential: per_metre * potential(run.particles()),
+            potential: per_metre * potential,
             stress_work: per_metre * (seen.before.stress_work + totals.accumulated.stress_work),
             stored: per_metre * totals.stored_energy,
             dissipated: per_metre * (volume * dissipated.iter().sum::<f64>()),

@@ -96,7 +96,7 @@ fn studies() -> ResultTable {
 pub(super) fn in_space() -> ResultTable {
     let spread = scientific(0);
     ResultTable::of("landslide-3d", |r| r.status == Status::Ok)
-        .by(&[SCHEME, LEVEL, CHANGED])
+        .by(&[SCHEME, LEVEL, SET])
         .value("particles", |r| r.work.particles as f64, fixed(0))
         .metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2))
         .metric("at the end (m)", RUNOUT_END, fixed(2))

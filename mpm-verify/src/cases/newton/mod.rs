@@ -199,7 +199,7 @@ fn tables() -> Vec<ResultTable> {
         r.level == "n8" && r.remedy() == RemedyName::None && setup.is_ok_and(|c| c.stands() == stands)
     };
     vec![
-        ResultTable::new("newton-hangs", move |r| plain(r, false), &[SCHEME, CHANGED], columns()),
-        ResultTable::new("newton-stands", move |r| plain(r, true), &[SCHEME, CHANGED], columns()),
+        ResultTable::new("newton-hangs", move |r| plain(r, false), &[SCHEME, SET], columns()),
+        ResultTable::new("newton-stands", move |r| plain(r, true), &[SCHEME, SET], columns()),
     ]
 }

@@ -6,6 +6,8 @@ pub(super) mod section;
 use crate::cases::prelude::*;
 use section::Section;
 
+/// Standard, the paper's, ours.
+pub(super) const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 pub(super) const YOUNG_MODULUS: Parameter = common::YOUNG_MODULUS.with_default("25e6").within(number(1e3, 1e12, false));
 pub(super) const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
 pub(super) const DENSITY: Parameter = common::DENSITY.with_default("2150").within(number(100.0, 1e4, false));

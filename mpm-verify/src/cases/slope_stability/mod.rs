@@ -6,12 +6,11 @@
 pub(super) mod foreign;
 mod run;
 
-use super::slope::{self, ground::STABILITY};
+use super::slope::{self, REMEDIES, ground::STABILITY};
 use crate::cases::prelude::*;
 use run::Trials;
 
 const LEVELS: [Level; 3] = [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Level::new("h0.1", 0.1)];
-const REMEDIES: [RemedyName; 3] = [RemedyName::None, FbarRecursive, FbarConsistent];
 /// Excess over its limit up to which a slope may be called standing.
 const SLOW: f64 = 0.005;
 /// Cells (m) up to which standard quadratic splines no longer lock beyond what a band of cells explains.

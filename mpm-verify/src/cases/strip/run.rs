@@ -307,10 +307,7 @@ impl<const D: usize> Problem<D> for Setup<Strip> {
     fn snapshot(&self, seen: &Seen, phase: &mut Phase<D>) -> Option<Snapshot> {
         let all = self.steps as u64;
         let quarter = all.is_multiple_of(QUARTERS) && seen.steps.is_multiple_of(all / QUARTERS);
-        (quarter && (1..all).contains(&seen.steps)).then(|| Snapshot {
-            time: phase.run.time(),
-            columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done(),
-        })
+        (quarter && (1..all).contains(&seen.steps)).then(|| self.snapshot_at(phase.run.time(), seen, phase))
     }
 
     fn particles<'a>(&self, _: &Seen, columns: Columns<'a, D>) -> Columns<'a, D> {

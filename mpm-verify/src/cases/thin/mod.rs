@@ -218,6 +218,6 @@ fn tables() -> Vec<ResultTable> {
     let shows = |r: &Record| r.scheme().rule().is_none() && r.changes_none_but(&["poisson_ratio"]);
     vec![
         ResultTable::new("thin", shows, &[SCHEME, RATIO], columns()),
-        ResultTable::new("thin-others", move |r| !shows(r), &[SCHEME, CHANGED], columns()),
+        ResultTable::new("thin-others", move |r| !shows(r), &[SCHEME, SET], columns()),
     ]
 }
