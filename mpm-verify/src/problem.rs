@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A simulation at its start, or the reason why there is none.
+/// A simulation at its start, or the reason why it can't begin.
 pub(crate) type Begun<const D: usize> = Result<Box<dyn Simulation<D>>, mpm_core::Error>;
 
 /// The current simulation of a run, which may consist of several in sequence: a gravity phase, then the flow.
@@ -100,7 +100,7 @@ pub trait Problem<const D: usize>: Sized + Send {
     fn snapshot(&self, _seen: &Self::Seen, _phase: &mut Phase<D>) -> Option<Snapshot> {
         None
     }
-    /// What is kept of the particles at the end, at a time (s).
+    /// A snapshot at a time (s), with what is kept of the particles at the end.
     fn snapshot_at(&self, time: f64, seen: &Self::Seen, phase: &mut Phase<D>) -> Snapshot {
         Snapshot { time, columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done() }
     }
