@@ -28,7 +28,7 @@ pub use field::{FieldFigure, FieldPanel, Line, animate_fields, draw_fields};
 pub use marker::Marker;
 pub use plot::draw_charts;
 pub use png_file::write_small_png;
-pub use ratios::{Ratio, Ratios, draw_ratios};
+pub use ratios::{Ratios, draw_ratios};
 pub use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
 
 use page::Point;

@@ -7,17 +7,6 @@ use super::text::{HEADING, SMALL, TITLE};
 use super::{EDGE, PlotError, largest};
 use std::path::Path;
 
-/// A ratio.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ratio {
-    /// Known.
-    Of(f64),
-    /// Only the first of the two is there: the ratio is less than any.
-    Least,
-    /// Only the second is.
-    Most,
-}
-
 /// A picture of ratios.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ratios {
@@ -25,12 +14,12 @@ pub struct Ratios {
     pub title: String,
     /// Meaning of a ratio below one and of one above.
     pub sides: [String; 2],
-    /// Meaning of [`Ratio::Least`] and [`Ratio::Most`].
+    /// Meaning of zero, where only the first of the two is there, and of infinity, where only the second is.
     pub ends: [String; 2],
     /// Kinds that are compared: a marker each.
     pub kinds: Vec<String>,
     /// Name and, kind by kind, ratio.
-    pub rows: Vec<(String, Vec<Option<Ratio>>)>,
+    pub rows: Vec<(String, Vec<Option<f64>>)>,
 }
 
 const ROW: f64 = 50.0;
@@ -49,20 +38,17 @@ pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
         return Err(PlotError::no_data(path, &ratios.title));
     }
     let known = ratios.rows.iter().flat_map(|(_, row)| row).flatten();
-    let reach = largest(known.filter_map(|ratio| match ratio {
-        Ratio::Of(ratio) => Some(ratio.log2().abs()),
-        _ => None,
-    }));
+    let reach = largest(known.map(|ratio| ratio.log2().abs()).filter(|reach| reach.is_finite()));
     // Whole powers of four.
     let reach = 2.0 * (reach / 2.0).ceil().max(1.0);
     let names = largest(ratios.rows.iter().map(|(name, _)| SMALL.width(name)));
     let (left, top) = (EDGE + names + 24.0, EDGE + 150.0);
     let (right, bottom) = (left + WIDTH, top + ROW * ratios.rows.len() as f64);
     let middle = f64::midpoint(left, right);
-    let place = |ratio: Ratio| match ratio {
-        Ratio::Of(ratio) => middle + (WIDTH / 2.0 - STRIP) * ratio.log2() / reach,
-        Ratio::Least => left + STRIP / 2.0,
-        Ratio::Most => right - STRIP / 2.0,
+    let place = |ratio: f64| match ratio {
+        0.0 => left + STRIP / 2.0,
+        f64::INFINITY => right - STRIP / 2.0,
+        ratio => middle + (WIDTH / 2.0 - STRIP) * ratio.log2() / reach,
     };
     save_both(path, (right + EDGE, bottom + 75.0), |page| {
         page.text(&ratios.title, (EDGE, EDGE), HEADING, (0.0, 0.0));
@@ -82,7 +68,7 @@ pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
             page.text(&ratios.ends[k], (outer, bottom + 56.0), SMALL, (k as f64, 0.5));
         }
         for exponent in (-(reach as i32)..=reach as i32).filter(|e| e % 2 == 0) {
-            let x = place(Ratio::Of(2f64.powi(exponent)));
+            let x = place(2f64.powi(exponent));
             let width = if exponent == 0 { 3.0 } else { 1.0 };
             page.line(&[(x, top), (x, bottom)], width, INK, &[]);
             let part = if exponent < 0 { "1/" } else { "" };

@@ -137,8 +137,9 @@ pub fn verdict_line(v: &Verdict) -> String {
     format!("{}{rest}{why}", painted(v.outcome, &name))
 }
 
-/// The metrics of a run, in the order of its case.
-pub(super) fn measured(case: &Case, r: &Record) -> String {
+/// The metrics of a run, in the order of its case, and the verdicts on it; of bookkeeping its failures, and what holds on
+/// one line.
+pub(super) fn found(case: &Case, r: &Record) -> String {
     let mut t = String::new();
     for m in &case.metrics {
         if let Some(measured) = r.metrics.get(m.name) {
@@ -148,12 +149,7 @@ pub(super) fn measured(case: &Case, r: &Record) -> String {
             let _ = writeln!(t, "{}", line.trim_end());
         }
     }
-    t
-}
-
-/// The verdicts on a run; of bookkeeping its failures, and what holds on one line.
-pub(super) fn judged(r: &Record) -> String {
-    let mut t = String::new();
+    t += "\n";
     t.extend(r.verdicts.iter().filter(|v| v.kind != Kind::Bookkeeping || v.failed()).map(verdict_line));
     let counted = r.verdicts.iter().filter(|v| v.kind == Kind::Bookkeeping && !v.failed());
     let counted: Vec<&str> = counted.map(|v| &*v.check).collect();
@@ -176,9 +172,7 @@ pub fn record(case: &Case, r: &Record) -> String {
         r.time.wall_s,
         1e9 * r.time.wall_s / r.work.particle_steps.max(1) as f64
     );
-    t += &measured(case, r);
-    t += "\n";
-    t += &judged(r);
+    t += &found(case, r);
     if let Some(e) = &r.error {
         t += &wrapped(&e.message, "", "");
     }

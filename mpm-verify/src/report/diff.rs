@@ -13,13 +13,6 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// A picture of two reports.
-struct PictureChange {
-    file: PathBuf,
-    old: Option<RgbImage>,
-    new: Option<RgbImage>,
-}
-
 /// An entry of two tables that is not the same.
 #[derive(Serialize)]
 struct Change<T> {
@@ -35,7 +28,8 @@ pub struct Difference {
     numbers: Vec<Change<Option<f64>>>,
     /// Outcomes, by run, check and metric.
     verdicts: Vec<Change<&'static str>>,
-    pictures: Vec<PictureChange>,
+    /// Pictures, by file.
+    pictures: Vec<Change<Option<RgbImage>>>,
 }
 
 impl Difference {
@@ -53,8 +47,8 @@ impl Difference {
             list_pictures(folder, folder, &mut files)?;
         }
         for file in files {
-            let change =
-                PictureChange { old: read_picture(&old.join(&file))?, new: read_picture(&new.join(&file))?, file };
+            let [old, new] = [old, new].map(|folder| read_picture(&folder.join(&file)));
+            let change = Change { what: file.display().to_string(), old: old?, new: new? };
             if change.old != change.new {
                 pictures.push(change);
             }
@@ -70,10 +64,9 @@ impl Difference {
     /// [`ExitCode::Drift`] if anything differs.
     #[must_use]
     pub fn exit_code(&self) -> ExitCode {
-        if self.numbers.is_empty() && self.verdicts.is_empty() && self.pictures.is_empty() {
-            ExitCode::Good
-        } else {
-            ExitCode::Drift
+        match self.numbers.len() + self.verdicts.len() + self.pictures.len() {
+            0 => ExitCode::Good,
+            _ => ExitCode::Drift,
         }
     }
 
@@ -92,7 +85,7 @@ impl Difference {
             "new": self.names[1],
             "numbers": self.numbers,
             "verdicts": self.verdicts,
-            "pictures": self.pictures.iter().map(|p| json!(p.file)).collect::<Value>(),
+            "pictures": self.pictures.iter().map(|p| json!(p.what)).collect::<Value>(),
         })
     }
 
@@ -115,7 +108,7 @@ impl Difference {
             }
         }
         for change in &self.pictures {
-            let file = change.file.display();
+            let file = &change.what;
             let _ = match (&change.old, &change.new) {
                 (Some(a), Some(b)) => writeln!(
                     t,
@@ -137,7 +130,7 @@ impl Difference {
         make_folder(out)?;
         for change in &self.pictures {
             if let (Some(old), Some(new)) = (&change.old, &change.new) {
-                write_small_png(&out.join(&change.file), &triptych(old, new))?;
+                write_small_png(&out.join(&change.what), &triptych(old, new))?;
             }
         }
         write_whole(&out.join("diff.md"), self.text().as_bytes())
@@ -193,8 +186,5 @@ fn list_pictures(root: &Path, folder: &Path, found: &mut BTreeSet<PathBuf>) -> R
 }
 
 fn read_picture(path: &Path) -> Result<Option<RgbImage>, Error> {
-    if !path.exists() {
-        return Ok(None);
-    }
-    files::read_picture(path).map(Some)
+    path.exists().then(|| files::read_picture(path)).transpose()
 }

@@ -9,8 +9,13 @@ use std::time::Duration;
 
 /// Writes `junit.xml` into `out`.
 pub(super) fn write(summary: &Summary, out: &Path) -> Result<(), Error> {
-    let path = out.join("junit.xml");
-    write_whole(&path, text(summary).map_err(|e| Error::file(&path, e))?.as_bytes())
+    write_suites("mpm-verify", summary.cases.iter().map(suite), &out.join("junit.xml"))
+}
+
+fn write_suites(name: &str, suites: impl IntoIterator<Item = TestSuite>, file: &Path) -> Result<(), Error> {
+    let mut report = Report::new(name);
+    report.add_test_suites(suites);
+    write_whole(file, report.to_string().map_err(|e| Error::file(file, e))?.as_bytes())
 }
 
 /// Writes the verdicts on results of another code. One that stands in the way of its gate is a failure.
@@ -29,15 +34,7 @@ pub fn write_scored(scores: &Scores, gate: &Gate, file: &Path) -> Result<(), Err
         suite.add_test_cases(on.1.iter().map(judged));
         suite.add_test_cases(gate.lacking(scores, &on).into_iter().map(lacking));
     }
-    let mut report = Report::new("mpm-verify score");
-    report.add_test_suite(suite);
-    write_whole(file, report.to_string().map_err(|e| Error::file(file, e))?.as_bytes())
-}
-
-fn text(summary: &Summary) -> Result<String, quick_junit::SerializeError> {
-    let mut report = Report::new("mpm-verify");
-    report.add_test_suites(summary.cases.iter().map(suite));
-    report.to_string()
+    write_suites("mpm-verify score", [suite], file)
 }
 
 fn suite(study: &CaseStudy) -> TestSuite {
@@ -52,14 +49,12 @@ fn suite(study: &CaseStudy) -> TestSuite {
 
 /// The time of the run stands at its first test.
 fn of_run(record: &Record) -> Vec<TestCase> {
-    let mut class = format!("{}.{}.{}", record.case, record.scheme(), record.level);
-    for assignment in &record.set {
-        class.push('+');
-        class.push_str(assignment);
-    }
+    let class = format!("{}.{}", record.case, record.folder().replacen('/', ".", 1));
     let timed = |(k, verdict): (usize, &Verdict)| {
         let status = match record.error.as_ref().filter(|_| record.broke_down()) {
-            Some(e) if verdict.failed() => told(NonSuccessKind::Error, &e.kind, &e.message),
+            Some(e) if verdict.failed() => {
+                told(TestCaseStatus::non_success(NonSuccessKind::Error), &e.kind, &e.message)
+            }
             _ => status(verdict),
         };
         let mut test = test(&class, name(verdict), status);
@@ -76,27 +71,21 @@ fn name(verdict: &Verdict) -> String {
 }
 
 fn status(verdict: &Verdict) -> TestCaseStatus {
-    let mut status = match verdict.outcome {
-        Outcome::Right => return TestCaseStatus::success(),
-        Outcome::Failed => TestCaseStatus::non_success(NonSuccessKind::Failure),
+    let (of, why) = (outcome(verdict.outcome), format!("{}: {}", demand(verdict), verdict.source));
+    match verdict.outcome {
+        Outcome::Right => TestCaseStatus::success(),
+        Outcome::Failed => failure(kind(verdict.kind), &why),
         // As other test runners tell of what is expected to fail.
-        Outcome::WrongAsKnown | Outcome::NotJudged => TestCaseStatus::skipped(),
-    };
-    let (of, told) = match verdict.outcome {
-        Outcome::NotJudged => (outcome(verdict.outcome), verdict.source.clone()),
-        Outcome::WrongAsKnown => (outcome(verdict.outcome), format!("{}: {}", demand(verdict), verdict.source)),
-        _ => (kind(verdict.kind), format!("{}: {}", demand(verdict), verdict.source)),
-    };
-    status.set_type(of).set_message(told);
-    status
+        Outcome::WrongAsKnown => told(TestCaseStatus::skipped(), of, &why),
+        Outcome::NotJudged => told(TestCaseStatus::skipped(), of, &verdict.source),
+    }
 }
 
 fn failure(of: &str, why: &str) -> TestCaseStatus {
-    told(NonSuccessKind::Failure, of, why)
+    told(TestCaseStatus::non_success(NonSuccessKind::Failure), of, why)
 }
 
-fn told(how: NonSuccessKind, of: &str, why: &str) -> TestCaseStatus {
-    let mut status = TestCaseStatus::non_success(how);
+fn told(mut status: TestCaseStatus, of: &str, why: &str) -> TestCaseStatus {
     status.set_type(of).set_message(why);
     status
 }
@@ -114,10 +103,16 @@ mod tests {
     use quick_xml::escape::unescape;
     use quick_xml::events::Event;
 
+    fn text(summary: &Summary) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        write(summary, folder.path()).unwrap();
+        std::fs::read_to_string(folder.path().join("junit.xml")).unwrap()
+    }
+
     #[test]
     fn it_reads_back_with_every_verdict_and_its_outcome() {
         let summary = summary();
-        let text = text(&summary).unwrap();
+        let text = text(&summary);
         let mut reader = quick_xml::Reader::from_str(&text);
         let (mut tests, mut failures, mut errors, mut skipped) = (0, 0, 0, 0);
         let mut messages = Vec::new();
@@ -146,6 +141,6 @@ mod tests {
 
     #[test]
     fn the_same_summary_gives_the_same_text() {
-        assert_eq!(text(&summary()).unwrap(), text(&summary()).unwrap());
+        assert_eq!(text(&summary()), text(&summary()));
     }
 }

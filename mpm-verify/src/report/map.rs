@@ -19,7 +19,6 @@ const STEPS: [(&[&str], &str); 3] =
 const COST: &str = "cost ÷ least";
 /// How the runs of a scheme in a case came out.
 pub(super) struct Cell {
-    pub(super) case: &'static str,
     /// A symbol and the marks of errors.
     pub(super) mark: String,
     /// In how many of the runs, unless in all.
@@ -31,7 +30,7 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    fn of(case: &'static str, runs: &[&Record], errors: &[&str]) -> Option<Self> {
+    fn of(runs: &[&Record], errors: &[&str]) -> Option<Self> {
         let fates: Vec<Fate> = runs.iter().map(|r| Fate::of(r)).collect();
         let worst = *fates.iter().max()?;
         let [symbol, _, class] = worst.shown();
@@ -47,7 +46,6 @@ impl Cell {
             (some, all) => (format!(" {some}/{all}"), 2 * some < all),
         };
         Some(Self {
-            case,
             mark: format!("{symbol}{marks}"),
             share,
             words: told.collect::<Vec<_>>().join(", "),
@@ -111,7 +109,7 @@ impl<'a> Panel<'a> {
             let own = || told.iter().copied().filter(|r| r.scheme() == *scheme);
             let cell = |case: &&'static str| {
                 let runs: Vec<&Record> = own().filter(|r| r.case == **case).collect();
-                Cell::of(case, &runs, &errors)
+                Cell::of(&runs, &errors)
             };
             let step = |(set, _): (&[&str], _)| {
                 let run = own().find(|r| r.case == CRITICAL_STEP.0 && r.set == set);
@@ -140,19 +138,17 @@ impl<'a> Panel<'a> {
             [document::Cell::head(name)].into_iter().chain(numbers.into_iter().map(number)).collect::<Vec<_>>()
         };
         let cases = self.cases.iter().map(|case| document::Cell::of(title(case), "steep"));
-        let cell = |cell: &Option<Cell>| match cell {
-            None => document::Cell::default(),
-            Some(c) => {
-                let mark = match is_page {
-                    true => Text::link(&*c.mark, format!("{}.html", c.case)),
-                    false => Text::from(&*c.mark),
-                };
-                document::Cell::of(mark, &c.class).titled(&*c.words).aside(&*c.share)
-            }
+        let cell = |(cell, case): (&Option<Cell>, &&str)| {
+            let Some(c) = cell else { return document::Cell::default() };
+            let mark = match is_page {
+                true => Text::link(&*c.mark, format!("{case}.html")),
+                false => Text::from(&*c.mark),
+            };
+            document::Cell::of(mark, &c.class).titled(&*c.words).aside(&*c.share)
         };
         let row = |line: &Line| {
             let numbers = line.numbers.iter().map(String::as_str).collect();
-            first(&line.scheme, numbers).into_iter().chain(line.cells.iter().map(cell)).into()
+            first(&line.scheme, numbers).into_iter().chain(line.cells.iter().zip(&self.cases).map(cell)).into()
         };
         Table {
             class: "map",
@@ -167,9 +163,4 @@ impl<'a> Panel<'a> {
         let marks = marks.map(|(kind, mark)| Text::from(format!("{mark}: ")).then(Text::code(*kind)));
         if self.errors.is_empty() { Text::default() } else { Text::joined(marks, ", ").then(".") }
     }
-}
-
-/// Symbols, what they say, and their classes.
-pub(super) fn legend() -> [[&'static str; 3]; 6] {
-    Fate::ALL.map(Fate::shown)
 }

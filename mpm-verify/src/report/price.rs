@@ -30,8 +30,6 @@ pub(super) fn steps(front: &[(f64, f64)]) -> Vec<(f64, f64)> {
 pub(super) struct Prices {
     /// Whether it is an error of the stress, not of the motion.
     pub(super) of_stress: bool,
-    /// The metric.
-    pub(super) metric: String,
     /// Label of the error.
     pub(super) label: &'static str,
     /// The target: the least error that half of the schemes reach with one of their runs.
@@ -112,13 +110,7 @@ impl Prices {
         let mut rows: Vec<Price> = schemes.iter().map(row).collect();
         let key = |row: &Price| row.cost.map_or(f64::INFINITY, |c| c.pairs);
         rows.sort_by(|a, b| key(a).total_cmp(&key(b)).then(a.least.total_cmp(&b.least)));
-        Some(Self {
-            of_stress: is_of_stress(quantity),
-            metric: quantity.metric.into(),
-            label: quantity.label,
-            target,
-            rows,
-        })
+        Some(Self { of_stress: is_of_stress(quantity), label: quantity.label, target, rows })
     }
 
     /// The cheapest row of a remedy that reaches the target.
@@ -130,11 +122,6 @@ impl Prices {
     /// Whether a remedy has been run, be it that it doesn't reach the target.
     pub(super) fn has(&self, remedy: RemedyName) -> bool {
         self.rows.iter().any(|row| row.scheme.remedy() == remedy)
-    }
-
-    /// Price with a scheme, if it was run.
-    pub(super) fn of_scheme(&self, scheme: Scheme) -> Option<&Price> {
-        self.rows.iter().find(|row| row.scheme == scheme)
     }
 
     /// How many times as many pairs as the cheapest, if both reach the target.

@@ -51,6 +51,7 @@ pub(super) struct Row {
 impl Row {
     pub(super) fn of(record: &Record, night: &Night, cited: &BTreeSet<&str>) -> Self {
         let judged = |v: &&Verdict| v.judges();
+        let wanted = |v: &&Verdict| v.is_wanted() && v.outcome == Outcome::NotJudged;
         let count = |outcome| record.verdicts.iter().filter(judged).filter(|v| v.outcome == outcome).count();
         let mut names = cited.clone();
         names.extend(record.verdicts.iter().filter(judged).map(|v| &*v.metric));
@@ -60,9 +61,7 @@ impl Row {
             .filter(|(_, value)| value.is_finite());
         let status = match (record.status, &record.error) {
             (Status::Ok, _) => "ok".to_owned(),
-            (Status::Failed, Some(e)) => {
-                format!("{BROKE}{}{AFTER}{}", written(six_digits(e.time)), e.kind)
-            }
+            (Status::Failed, Some(e)) => format!("{BROKE}{}{AFTER}{}", written(six_digits(e.time)), e.kind),
             (Status::Failed, None) => "failed".to_owned(),
         };
         Self {
@@ -76,11 +75,7 @@ impl Row {
             wrong_as_known: count(Outcome::WrongAsKnown),
             not_judged: count(Outcome::NotJudged),
             failed: count(Outcome::Failed),
-            wanted_not_judged: record
-                .verdicts
-                .iter()
-                .filter(|v| v.is_wanted() && v.outcome == Outcome::NotJudged)
-                .count(),
+            wanted_not_judged: record.verdicts.iter().filter(wanted).count(),
             particles: record.work.particles,
             steps: record.work.steps,
             particle_node_pairs: record.work.particle_node_pairs,

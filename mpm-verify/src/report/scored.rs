@@ -1,7 +1,7 @@
 //! Results of another code, beside ours.
 
 use super::convergence::by_level;
-use super::describe::{judged, measured, run_line, verdict_line, verification, verification_json};
+use super::describe::{found, run_line, verdict_line, verification, verification_json};
 use super::document::Document;
 use super::document::terminal::{aligned, cut, wrapped};
 use super::prelude::*;
@@ -145,9 +145,7 @@ pub fn text(scores: &Scores, ours: &[Ours]) -> String {
 fn of_run(scored: &Scored, ours: &Ours) -> String {
     let record = &scored.record;
     let mut t = wrapped(&title(scored), "", "  ") + "\n";
-    t += &measured(scored.case, record);
-    t += "\n";
-    t += &judged(record);
+    t += &found(scored.case, record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
     let _ = writeln!(t, "\n{}", aligned(table(scored, ours)));
     if let Some(absent) = &ours.absent {

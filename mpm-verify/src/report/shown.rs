@@ -24,38 +24,20 @@ const PLACE: &str = "docs/pictures";
 /// Errors that the pages' tables tell of: five rows of panels would be too many.
 const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
-/// Source of a picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Source {
-    /// Kept rows of nights: a row per run.
-    Rows,
-    /// The bench.
-    Bench,
-    /// Runs of this tier or a higher one.
-    Runs(Tier),
-}
-
-use Source::{Bench, Rows, Runs};
-
 /// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG. The third cell
-/// is `rows`, `bench` or the least tier.
+/// is [`ROWS`], [`BENCH`] or the least tier of the runs.
 const SHOWN: &str = include_str!("../../assets/pictures.csv");
+/// Kept rows of nights: a row per run.
+const ROWS: &str = "rows";
+const BENCH: &str = "bench";
 
-fn shown() -> impl Iterator<Item = (&'static str, &'static str, Source)> {
-    let source = |name| match name {
-        "rows" => Some(Rows),
-        "bench" => Some(Bench),
-        tier => Tier::parse(tier).ok().map(Runs),
-    };
-    SHOWN.lines().skip(1).filter_map(move |line| {
-        let mut cells = line.split(',');
-        Some((cells.next()?, cells.next()?, source(cells.next()?)?))
-    })
+fn shown() -> impl Iterator<Item = [&'static str; 3]> {
+    SHOWN.lines().skip(1).filter_map(|line| line.split(',').collect::<Vec<_>>().try_into().ok())
 }
 
 /// The files of all pictures, below the repository.
 pub fn files() -> impl Iterator<Item = PathBuf> {
-    shown().map(|(folder, file, _)| Path::new(PLACE).join(folder).join(file))
+    shown().map(|[folder, file, _]| Path::new(PLACE).join(folder).join(file))
 }
 
 /// Draws the pictures of the repository at `root` anew: from its rows and its bench, and those that the finished runs in
@@ -76,14 +58,15 @@ pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
         _ => Some(draw_runs(folders, drawn)?),
     };
     let mut told = String::new();
-    for (folder, file, source) in shown() {
+    for [folder, file, source] in shown() {
         let (from, to) = (drawn.join(folder), root.join(PLACE).join(folder));
-        let suffices = match source {
-            Rows | Bench => true,
-            Runs(least) => tier.is_some_and(|tier| tier >= least),
+        let (suffices, wanted) = match source {
+            ROWS => (true, "rows of runs".to_owned()),
+            BENCH => (true, "a bench over numbers of particles".to_owned()),
+            least => (tier >= Some(Tier::parse(least)?), format!("runs of tier {least}: --from")),
         };
         let line = if !(suffices && from.join(file).exists()) {
-            format!("left, for want of {}", wanted(source))
+            format!("left, for want of {wanted}")
         } else {
             make_folder(&to)?;
             place(&from.join(file), &to.join(file))?;
@@ -92,14 +75,6 @@ pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
         told += &format!("{folder}/{file}: {line}\n");
     }
     Ok(told)
-}
-
-fn wanted(source: Source) -> String {
-    match source {
-        Rows => "rows of runs".to_owned(),
-        Bench => "a bench over numbers of particles".to_owned(),
-        Runs(tier) => format!("runs of tier {tier}: --from"),
-    }
 }
 
 /// Draws errors over cell size, cost and swept parameters of every case that has rows.
@@ -116,7 +91,7 @@ fn draw_rows(results: &Path, out: &Path) -> Result<(), Error> {
     for case in cases::all() {
         let of_case = records.iter().filter(|r| r.case == case.name);
         let mut study = CaseStudy::new(case.name, of_case.cloned().collect());
-        if shown().any(|(name, _, of)| name == case.name && of == Rows) && !study.records.is_empty() {
+        if shown().any(|[name, _, of]| name == case.name && of == ROWS) && !study.records.is_empty() {
             study.convergence = convergence(case, &study.records);
             convergence::draw(&study, out)?;
             sweep::draw(&study, out)?;
@@ -178,7 +153,7 @@ fn fit(picture: &RgbImage, to: &Path) -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    const ROWS: &str = "\
+    const KEPT: &str = "\
 case,scheme,level,set,h,status,right,wrong_as_known,not_judged,failed,particles,steps,particle_node_pairs,cpu_s,night,program,metrics
 cook,gimp-none-flip,h2,,2,ok,3,1,0,0,1448,7026,183125664,0.452,2026-01-01,now,fem_edge_mean_error=-0.15
 cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_edge_mean_error=-0.08
@@ -188,7 +163,7 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
     fn what_there_is_is_drawn_and_the_rest_is_named_and_left() {
         let root = tempfile::tempdir().unwrap();
         let shown = |file: &str| root.path().join(PLACE).join(file);
-        crate::files::write_whole(&root.path().join("reports/nightly/results.csv"), ROWS.as_bytes()).unwrap();
+        crate::files::write_whole(&root.path().join("reports/nightly/results.csv"), KEPT.as_bytes()).unwrap();
         crate::files::write_whole(&shown("column/creep.svg"), b"former").unwrap();
         let told = draw(root.path(), &[]).unwrap();
         let (drawn, left): (Vec<&str>, Vec<&str>) = told.lines().partition(|line| line.ends_with(": drawn"));

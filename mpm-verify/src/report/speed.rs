@@ -3,7 +3,7 @@
 use super::prelude::*;
 use super::price::{Price, Prices};
 use super::words::list;
-use crate::draw::{Ratio, Ratios, draw_ratios};
+use crate::draw::{Ratios, draw_ratios};
 
 /// Standard MPM, and the F̄ that neither creeps nor makes energy: the two to choose from. The others are there for
 /// comparison.
@@ -56,7 +56,8 @@ impl Speed {
     /// in how many of those in which it was run it gets there; empty if it was run in fewer than [`FEW`].
     pub(super) fn median(&self, scheme: Scheme) -> String {
         let motions = self.0.iter().map(|(_, p)| p).filter(|p| !p.of_stress);
-        let rows: Vec<(&Prices, &Price)> = motions.filter_map(|p| Some((p, p.of_scheme(scheme)?))).collect();
+        let rows: Vec<(&Prices, &Price)> =
+            motions.filter_map(|p| Some((p, p.rows.iter().find(|row| row.scheme == scheme)?))).collect();
         let mut ratios: Vec<f64> = rows.iter().filter_map(|(p, row)| p.over_cheapest(row)).collect();
         ratios.sort_by(f64::total_cmp);
         match (rows.len(), ratios.len()) {
@@ -72,18 +73,13 @@ impl Speed {
     /// When F̄ is worth its price, and which scheme to take.
     pub(super) fn advice(&self) -> String {
         let [motion, stress] = [false, true].map(|of_stress| {
-            let worth =
-                |(_, p): &&(&'static str, Prices)| p.of_stress == of_stress && ratio(p).is_some_and(is_worth_it);
+            let is_worth_it = |ratio: f64| ratio < 1.0;
+            let worth = |(_, p): &&(&str, Prices)| p.of_stress == of_stress && ratio(p).is_some_and(is_worth_it);
             list(self.0.iter().filter(worth).map(|(title, _)| *title))
         });
-        let mut elsewhere: Vec<f64> = self
-            .0
-            .iter()
-            .filter_map(|(_, p)| match ratio(p) {
-                Some(Ratio::Of(ratio)) if ratio >= 1.0 && !p.of_stress => Some(ratio),
-                _ => None,
-            })
-            .collect();
+        let motions = self.0.iter().filter(|(_, p)| !p.of_stress);
+        let mut elsewhere: Vec<f64> = motions.filter_map(|(_, p)| ratio(p)).collect();
+        elsewhere.retain(|ratio| *ratio >= 1.0 && ratio.is_finite());
         elsewhere.sort_by(f64::total_cmp);
         let dearer = match (elsewhere.first(), elsewhere.last()) {
             (Some(least), Some(most)) => format!(
@@ -152,25 +148,16 @@ impl Speed {
     }
 }
 
-/// Ratio of the cost of F̄ to that of standard MPM, if both have been run and one reaches the target.
-fn ratio(prices: &Prices) -> Option<Ratio> {
+/// Ratio of the cost of F̄ to that of standard MPM, if both have been run and one reaches the target; infinite is the cost
+/// of what does not reach it.
+fn ratio(prices: &Prices) -> Option<f64> {
     if !(prices.has(OURS) && prices.has(STANDARD)) {
         return None;
     }
     let pairs = |remedy| prices.cheapest(remedy)?.cost.map(|cost| cost.pairs);
     match (pairs(OURS), pairs(STANDARD)) {
-        (Some(ours), Some(standard)) => Some(Ratio::Of(ours / standard)),
-        (Some(_), None) => Some(Ratio::Least),
-        (None, Some(_)) => Some(Ratio::Most),
         (None, None) => None,
-    }
-}
-
-fn is_worth_it(ratio: Ratio) -> bool {
-    match ratio {
-        Ratio::Of(ratio) => ratio < 1.0,
-        Ratio::Least => true,
-        Ratio::Most => false,
+        (ours, standard) => Some(ours.unwrap_or(f64::INFINITY) / standard.unwrap_or(f64::INFINITY)),
     }
 }
 
@@ -237,6 +224,5 @@ mod tests {
         let picture = speed.draw(folder.path()).unwrap().unwrap();
         assert!(folder.path().join(picture.file).with_extension("svg").exists());
         assert!(Speed::of([]).draw(folder.path()).unwrap().is_none());
-        assert!(is_worth_it(Ratio::Least) && is_worth_it(Ratio::Of(0.5)) && !is_worth_it(Ratio::Of(1.0)));
     }
 }

@@ -1,6 +1,7 @@
 //! The summary in Markdown.
 
 use super::document::{Document, Table, Text};
+use super::fate::Fate;
 use super::prelude::*;
 use super::speed::Speed;
 use super::words::{self, bless_commands, local_orders, number, order};
@@ -15,7 +16,7 @@ pub(super) fn write(summary: &Summary, speed: &Speed, out: &Path) -> Result<(), 
     let panels = map::panels(summary.records(), speed);
     if !panels.is_empty() {
         document.section("", "Map");
-        document.paragraph(map::legend().map(|[symbol, text, _]| format!("{symbol} {text}")).join(", "));
+        document.paragraph(Fate::ALL.map(Fate::shown).map(|[symbol, text, _]| format!("{symbol} {text}")).join(", "));
     }
     for panel in panels {
         document.heading(3, "", panel.name);
@@ -57,10 +58,7 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
     failures(document, summary);
     for basis in criteria::BASES {
         let (table, _) = criteria::remedies(basis).fill(summary.records());
-        if !table.rows.is_empty() {
-            document.section("", format!("Remedies against criteria, {basis}"));
-            document.table("", table);
-        }
+        section(document, format!("Remedies against criteria, {basis}"), table);
     }
     for study in &summary.cases {
         let case = cases::find(&study.case)?;
@@ -69,13 +67,18 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
             let shows = |m: Metric| m.name == c.metric;
             c.set == case.ladder && headlines.any(|h| h.metric.is_some_and(shows))
         };
-        let table = orders(study.convergence.iter().filter(shown));
-        if !table.rows.is_empty() {
-            document.section("", format!("Orders, {}", study.case));
-            document.table("", table);
-        }
+        section(document, format!("Orders, {}", study.case), orders(study.convergence.iter().filter(shown)));
     }
     Ok(())
+}
+
+/// Adds a section with a table, unless that is empty.
+fn section(document: &mut Document, title: impl Into<Text>, table: impl Into<Table>) {
+    let table = table.into();
+    if !table.rows.is_empty() {
+        document.section("", title);
+        document.table("", table);
+    }
 }
 
 /// Programs that made the runs, case by case.
@@ -92,23 +95,12 @@ fn failures(document: &mut Document, summary: &Summary) {
         document.paragraph(Text::marked("**Broke down**").then(run));
     }
     let failed = summary.verdicts().filter(|(.., v)| v.misses_the_truth());
-    let failed: Vec<(Option<Text>, &Verdict)> = failed
-        .map(|(study, run, v)| {
-            let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
-            (Some(format!("{} {run}", study.case).into()), v)
-        })
-        .collect();
-    let drift = verdicts::drift(summary);
-    let mut section = |title: &str, table: Table| {
-        document.section("", title);
-        document.table("", table);
-    };
-    if !failed.is_empty() {
-        section("Failed checks", verdicts::table(failed));
-    }
-    if !drift.rows.is_empty() {
-        section("Drift", drift.into());
-    }
+    let failed = failed.map(|(study, run, v)| {
+        let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
+        (Some(format!("{} {run}", study.case).into()), v)
+    });
+    section(document, "Failed checks", verdicts::table(failed));
+    section(document, "Drift", verdicts::drift(summary));
 }
 
 /// The order of every error, if there is one.

@@ -61,19 +61,13 @@ pub(super) fn write(study: &CaseStudy, out: &Path) -> Result<(), Error> {
     let mut head = HEAD.map(str::to_owned).to_vec();
     head.insert(3, "run".to_owned());
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
-    let rows = of_case(study).filter(|(_, v)| v.kind != Kind::Drift).map(|(run, v)| {
+    let rows = study.verdicts_of_all().filter(|(_, v)| v.kind != Kind::Drift).map(|(run, v)| {
         let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
         let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric];
         let numbers = [v.value, v.reference, v.tolerance].map(number);
         [&words.map(str::to_owned)[..], &numbers, std::slice::from_ref(&v.source)].concat()
     });
     write_csv(&out.join(&study.case).join("verdicts.csv"), &head, rows)
-}
-
-/// The verdicts on the runs of a case, then those on runs together.
-pub(super) fn of_case(study: &CaseStudy) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
-    let single = study.records.iter().flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
-    single.chain(study.verdicts.iter().map(|v| (None, v)))
 }
 
 /// The runs that broke down and were not known to, each with the message.

@@ -37,6 +37,12 @@ impl CaseStudy {
     pub(crate) fn program(&self) -> Option<&Version> {
         self.records.first().map(|r| &r.version)
     }
+
+    /// The verdicts on the runs, then those on runs together.
+    pub(crate) fn verdicts_of_all(&self) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
+        let single = self.records.iter().flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
+        single.chain(self.verdicts.iter().map(|v| (None, v)))
+    }
 }
 
 /// Counts over all runs and verdicts.
@@ -163,10 +169,7 @@ impl Summary {
 
     /// All verdicts, each with the run it is about (none for those on runs together).
     pub fn verdicts(&self) -> impl Iterator<Item = (&CaseStudy, Option<&Record>, &Verdict)> {
-        self.cases.iter().flat_map(|study| {
-            let single = study.records.iter().flat_map(move |r| r.verdicts.iter().map(move |v| (study, Some(r), v)));
-            single.chain(study.verdicts.iter().map(move |v| (study, None, v)))
-        })
+        self.cases.iter().flat_map(|study| study.verdicts_of_all().map(move |(run, v)| (study, run, v)))
     }
 }
 

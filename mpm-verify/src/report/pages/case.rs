@@ -5,14 +5,14 @@ use super::{anchor, pictures, run};
 use crate::draw::sketch;
 use crate::report::convergence::by_level;
 use crate::report::document::{Cell, Document, Row, Table, Text};
-use crate::report::faults::{self, Fault};
+use crate::report::faults::{self, Seen};
 use crate::report::prelude::*;
 use crate::report::price::Prices;
 use crate::report::verdicts::{self, tightest};
 use crate::report::words::{OUTCOMES, kind, made_by, number};
 use crate::spec::Level;
 
-pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path) -> Document {
+pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, Seen>, out: &Path) -> Document {
     let mut page = Document::new(case.title);
     let mut lead = Text::from(sentence(study));
     if let Some((margin, metric, run)) = tightest(case, study) {
@@ -23,7 +23,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
     }
     page.classed("lead", lead);
     page.paragraph(case.description);
-    let failed = verdicts::of_case(study).filter(|(_, v)| v.failed());
+    let failed = study.verdicts_of_all().filter(|(_, v)| v.failed());
     let failed: Vec<_> = failed.map(|(record, v)| (Some(run(study, record)), v)).collect();
     let has_failed = !failed.is_empty();
     if has_failed {
@@ -87,19 +87,14 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &[Fault], out: &Path)
 
 /// How the runs of a case came out, in a sentence.
 fn sentence(study: &CaseStudy) -> String {
-    let [right, known, not_judged, failed] =
-        OUTCOMES.map(|outcome| study.records.iter().filter(|r| outcome_of_run(r) == outcome).count());
-    let limits = verdicts::of_case(study).filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
+    let limits = study.verdicts_of_all().filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
     let limits = distinct(limits.map(|(_, v)| &*v.check));
     let seen = match limits.is_empty() {
         true => String::new(),
         false => format!(" Known limits seen: {}.", limits.join(", ")),
     };
-    let all = match study.records.len() {
-        1 => "1 run:".to_owned(),
-        several => format!("{several} runs:"),
-    };
-    format!("{all} {right} right, {known} wrong as known, {not_judged} not judged, {failed} FAILED.{seen}")
+    let counts = Summary::new("", vec![study.clone()]).counts.to_string();
+    counts.lines().next().unwrap_or_default().to_owned() + &seen
 }
 
 /// The quantities of the case, scheme by level; of more than two the others are folded.
@@ -113,8 +108,7 @@ fn errors(page: &mut Document, case: &Case, study: &CaseStudy) {
     if tables.is_empty() {
         return;
     }
-    let ladder = case.ladder.iter().map(|set| (*set).to_owned()).collect::<Vec<_>>().join(" ");
-    let changed = if ladder.is_empty() { String::new() } else { format!(", {ladder}") };
+    let changed = if case.ladder.is_empty() { String::new() } else { format!(", {}", case.ladder.join(" ")) };
     page.section("errors", format!("Errors by scheme and level{changed}"));
     let others = tables.split_off(tables.len().min(2));
     let show = |page: &mut Document, tables: Vec<(&Quantity, Sheet)>| {
@@ -165,8 +159,8 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
 
 /// Every check with its outcomes and the number of seeded faults that it sees: those that the case declares, then those that
 /// every case has.
-fn checks(case: &Case, study: &CaseStudy, seeded: &[Fault]) -> Table {
-    let all = || verdicts::of_case(study).map(|(_, v)| v);
+fn checks(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, Seen>) -> Table {
+    let all = || study.verdicts_of_all().map(|(_, v)| v);
     let is_declared = |v: &Verdict| case.checks.iter().any(|c| c.name == v.check);
     let others = all().filter(|v| v.kind != Kind::Drift && !is_declared(v));
     let others = distinct(others.map(|v| (&*v.check, v.kind, &*v.source)));

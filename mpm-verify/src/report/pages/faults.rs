@@ -2,24 +2,25 @@
 
 use crate::cases;
 use crate::report::document::{Cell, Document, Row, Table, Text, prose};
-use crate::report::faults::Fault;
+use crate::report::faults::{Seen, hangs_on_one};
 use crate::study::summary::Summary;
+use std::collections::BTreeMap;
 
 /// A line a fault and a column a case that sees any, in the order of the cases; a case has a link where it has a page.
-pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
-    let sees = |case: &str| faults.iter().filter(|f| f.seen_by.contains_key(case)).count();
+pub(super) fn page(faults: &BTreeMap<String, Seen>, summary: &Summary) -> Document {
+    let sees = |case: &str| faults.values().filter(|seen| seen.contains_key(case)).count();
     let names: Vec<&str> = cases::all().iter().map(|case| case.name).filter(|name| sees(name) > 0).collect();
     let title = |name: &&str| match summary.cases.iter().any(|study| study.case == **name) {
         true => Cell::of(Text::link(*name, format!("{name}.html#checks")), "steep"),
         false => Cell::of(*name, "steep"),
     };
-    let line = |fault: &Fault| -> Row {
-        let class = if fault.hangs_on_one() { "known" } else { "pass" };
-        let cells = names.iter().map(|name| match fault.seen_by.get(*name) {
+    let line = |(fault, seen): (&String, &Seen)| -> Row {
+        let class = if hangs_on_one(seen) { "known" } else { "pass" };
+        let cells = names.iter().map(|name| match seen.get(*name) {
             Some(checks) => Cell::of(checks.len().to_string(), class).titled(checks.join(", ")),
             None => Cell::default(),
         });
-        [Cell::head(&*fault.name)].into_iter().chain(cells).into()
+        [Cell::head(&**fault)].into_iter().chain(cells).into()
     };
     let seen = names.iter().map(|name| sees(name).to_string().into());
     let last = [Cell::head("faults that a case sees")].into_iter().chain(seen).into();
@@ -28,7 +29,7 @@ pub(super) fn page(faults: &[Fault], summary: &Summary) -> Document {
         head: ["fault".into()].into_iter().chain(names.iter().map(title)).collect(),
         rows: faults.iter().map(line).chain([last]).collect(),
     };
-    let alone = faults.iter().filter(|f| f.hangs_on_one()).count();
+    let alone = faults.values().filter(|seen| hangs_on_one(seen)).count();
     let mut page = Document::new("Seeded faults and the checks that detect them");
     page.classed(
         "lead",

@@ -3,6 +3,7 @@
 use super::{docs, file_of, in_repository, pictures, run};
 use crate::report::advice::advice;
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text, prose};
+use crate::report::fate::Fate;
 use crate::report::prelude::*;
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
@@ -73,7 +74,7 @@ fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
         return page.paragraph("No runs.");
     }
     let key = |[symbol, text, class]: [&str; 3]| Text::mark(symbol, &format!("key {class}")).then(format!(" {text}"));
-    page.paragraph(Text::joined(map::legend().map(key), " · "));
+    page.paragraph(Text::joined(Fate::ALL.map(Fate::shown).map(key), " · "));
     prose("map").for_each(|text| page.note(text));
     for panel in panels {
         page.heading(3, "", panel.name);
