@@ -13,10 +13,7 @@ pub(super) fn draw(
     out: &Path,
 ) -> Result<Vec<Picture>, Error> {
     let mut pictures = Vec::new();
-    for record in &study.records {
-        if !record.verdicts.iter().any(Verdict::drifts) {
-            continue;
-        }
+    for record in study.records.iter().filter(|r| r.verdicts.iter().any(Verdict::drifts)) {
         // A golden that is missing or damaged, or a run without its rows, has nothing to show.
         let folder = gathered.folder(record)?;
         if let Ok([golden, now]) = goldens.pictures(record, folder) {

@@ -76,15 +76,11 @@ fn rows_of(study: &CaseStudy, ladder: &[&str], night: &Night) -> Vec<Row> {
     };
     let mut rows = Vec::new();
     for entry in study.convergence.iter().filter(|c| c.is_error && c.set == ladder) {
+        let (scheme, metric) = (entry.scheme, &entry.metric);
         let finest = entry.points.last();
-        rows.extend(finest.map(|p| {
-            let run = format!("{}/{}", entry.scheme, p.level);
-            row(run, entry.metric.clone(), p.value.abs())
-        }));
-        rows.extend(entry.order.iter().map(|order| {
-            let quantity = format!("{ORDER}{}", entry.metric);
-            row(entry.scheme.to_string(), quantity, order.order)
-        }));
+        rows.extend(finest.map(|p| row(format!("{scheme}/{}", p.level), metric.clone(), p.value.abs())));
+        let order = entry.order.as_ref();
+        rows.extend(order.map(|o| row(scheme.to_string(), format!("{ORDER}{metric}"), o.order)));
     }
     let mut cost: BTreeMap<Scheme, (f64, u64)> = BTreeMap::new();
     for record in &study.records {

@@ -46,9 +46,8 @@ fn rows_of(study: &CaseStudy, night: &Night, former: &[Row]) -> Result<Vec<Row>,
     let columns = case.headlines.iter().chain(case.tables.iter().flat_map(|table| &table.columns));
     let mut cited: BTreeSet<&str> = columns.filter_map(|column| Some(column.metric?.name)).collect();
     cited.extend(case.quantities.iter().map(|q| q.metric.name));
-    cited.extend(
-        former.iter().filter(|row| row.case == study.case).flat_map(|row| row.metrics.keys().map(String::as_str)),
-    );
+    let former = former.iter().filter(|row| row.case == study.case);
+    cited.extend(former.flat_map(|row| row.metrics.keys().map(String::as_str)));
     Ok(study.records.iter().map(|r| Row::of(r, night, &cited)).collect())
 }
 

@@ -136,11 +136,8 @@ fn owning<T>(out: &Path, write: impl FnOnce() -> Result<T, Error>) -> Result<T, 
     discard_report(out)?;
     write_whole(&out.join(OWN), CLAIM.as_bytes())?;
     let written = write()?;
-    let mut account = CLAIM.to_owned();
-    for file in places(out)? {
-        account.push_str(&format!("{}\n", file.display()));
-    }
-    write_whole(&out.join(OWN), account.as_bytes())?;
+    let account: String = places(out)?.iter().map(|file| format!("{}\n", file.display())).collect();
+    write_whole(&out.join(OWN), (CLAIM.to_owned() + &account).as_bytes())?;
     Ok(written)
 }
 

@@ -4,10 +4,8 @@ use super::prelude::*;
 use super::words::list;
 use crate::record::Status;
 use crate::results::{SHORT, fixed};
-use crate::scheme::BasisName::{Bspline2, Gimp};
-use crate::scheme::RemedyName::{FbarConsistent, None as Standard};
 use crate::scheme::TransferName;
-use std::f64::consts::PI;
+use serde::Deserialize;
 
 /// Name of the table on pages.
 pub(super) const NAME: &str = "explicit-implicit";
@@ -16,85 +14,62 @@ const STEPS: [&str; 4] = ["cfl=", "step_factor=", "load_steps=", "step_scaling="
 /// An error this much larger is still the same.
 const EQUAL: f64 = 1.1;
 
-/// A problem, with the functions and the remedy to take for it.
+/// The problems, in the order of their rows.
+const PROBLEMS: &str = include_str!("../../assets/rivals.toml");
+
+/// A problem, with the scheme to take for it, whose functions and remedy are those of the implicit runs too.
+#[derive(Deserialize)]
 pub(super) struct Problem {
-    pub(super) case: &'static str,
+    case: String,
     /// Parameters changed from the case's own.
-    set: &'static [&'static str],
-    pub(super) schemes: (BasisName, RemedyName),
+    #[serde(default)]
+    set: Vec<String>,
+    /// Of the explicit runs.
+    scheme: Scheme,
     /// Error in which the runs are equal: name, metric.
-    pub(super) motion: (&'static str, &'static str),
-    pressure: fn(&Record) -> f64,
+    pub(super) motion: (String, String),
+    /// Metric of the error of the pressure, or of the pressure where that has an exact value.
+    pressure: Option<String>,
+    exact: Option<f64>,
     /// Title of its panel in the picture of [`super::solvers`], if it has one.
-    pub(super) panel: Option<&'static str>,
+    pub(super) panel: Option<String>,
 }
 
-const fn problem(
-    case: &'static str,
-    schemes: (BasisName, RemedyName),
-    motion: (&'static str, &'static str),
-    pressure: fn(&Record) -> f64,
-) -> Problem {
-    Problem { case, set: &[], schemes, motion, pressure, panel: None }
+/// Reads the problems.
+pub(super) fn problems() -> Result<Vec<Problem>, Error> {
+    let read = toml::from_str::<BTreeMap<String, Vec<Problem>>>(PROBLEMS);
+    let all = read.map_err(|e| Error::Input(format!("problems of explicit and implicit runs: {e}")))?;
+    Ok(all.into_values().flatten().collect())
 }
-
-const DISPLACEMENT: (&str, &str) = ("u (m)", "displacement_l2");
-const FREQUENCY: (&str, &str) = ("frequency", "frequency_error");
-
-fn stress(r: &Record) -> f64 {
-    r.value("mean_stress_l2")
-}
-
-fn no_pressure(_: &Record) -> f64 {
-    f64::NAN
-}
-
-pub(super) const PROBLEMS: [Problem; 9] = [
-    Problem {
-        panel: Some("A wave that steps follow (ν = 0.3)"),
-        ..problem("mms-axis", (Bspline2, Standard), DISPLACEMENT, stress)
-    },
-    problem("mms-wall-pressure", (Bspline2, Standard), DISPLACEMENT, stress),
-    Problem {
-        panel: Some("A vortex, slow beside its waves (ν = 0.4999)"),
-        ..problem("mms-vortex-box", (Gimp, FbarConsistent), DISPLACEMENT, stress)
-    },
-    problem("vibrating-bar", (Bspline2, Standard), FREQUENCY, stress),
-    Problem { set: &["duration=24"], ..problem("standing-wave", (Bspline2, Standard), FREQUENCY, stress) },
-    problem("discs", (Gimp, Standard), ("energy", "energy_error_accumulated"), no_pressure),
-    problem("cook", (Gimp, FbarConsistent), ("deflection", "fem_tip_error"), |r| r.value("mean_stress_rms_error")),
-    // Prandtl's mean stress under the footing is −(1 + π) s_u.
-    Problem {
-        panel: Some("Clay under a footing, to its limit load (ν = 0.49)"),
-        ..problem("footing", (Gimp, FbarConsistent), ("N_c by B", "prandtl_error"), |r| {
-            r.value("mean_stress_0.25_0.25") / (1.0 + PI) + 1.0
-        })
-    },
-    Problem {
-        panel: Some("A slope, its strength reduced until it fails"),
-        ..problem("slope-stability", (Gimp, FbarConsistent), ("factor", "factor_error"), no_pressure)
-    },
-];
 
 impl Problem {
+    /// Whether a run is of its case, functions and remedy.
+    pub(super) fn has(&self, r: &Record) -> bool {
+        r.case == self.case && (r.basis(), r.remedy()) == (self.scheme.basis(), self.scheme.remedy())
+    }
+
     /// The size of the error of motion of a run.
-    fn error(&self, r: &Record) -> f64 {
-        r.value(self.motion.1).abs()
+    pub(super) fn error(&self, r: &Record) -> f64 {
+        r.value(&self.motion.1).abs()
+    }
+
+    /// The size of its error of pressure; NaN if the problem has none.
+    fn error_of_pressure(&self, r: &Record) -> f64 {
+        let value = self.pressure.as_ref().map_or(f64::NAN, |metric| r.value(metric));
+        self.exact.map_or(value, |exact| value / exact - 1.0).abs()
     }
 
     /// Whether a run is of it, however divided in time.
     fn is_of(&self, r: &Record) -> bool {
-        let own = r.case == self.case && (r.basis(), r.remedy()) == self.schemes;
-        let is_set = |s: &String| self.set.contains(&&**s);
-        let only = |s: &String| is_set(s) || STEPS.iter().any(|p| s.starts_with(p));
-        let set = r.set.iter().filter(|s| is_set(s)).count() == self.set.len();
+        let only = |s: &String| self.set.contains(s) || STEPS.iter().any(|p| s.starts_with(p));
+        let set = r.set.iter().filter(|s| self.set.contains(s)).count() == self.set.len();
         let told = r.status == Status::Ok && r.time.cpu_s > 0.0 && self.error(r).is_finite();
-        own && set && r.set.iter().all(only) && told
+        self.has(r) && set && r.set.iter().all(only) && told
     }
 
     fn title(&self) -> String {
-        let title = cases::find(self.case).map_or(self.case, |case| case.title);
-        format!("{title} ({} {})", self.schemes.0, self.schemes.1)
+        let title = cases::find(&self.case).map_or(&*self.case, |case| case.title);
+        format!("{title} ({} {})", self.scheme.basis(), self.scheme.remedy())
     }
 
     /// The cheapest run of each kind of solver among those whose error is that which both reach.
@@ -120,7 +95,7 @@ impl Problem {
     fn row(&self, r: &Record, other: Option<&Record>) -> Vec<String> {
         let number = |name| r.value(name);
         let name = if r.scheme().rule().is_some() { &*r.solver } else { "explicit" };
-        let own = r.set.iter().filter(|s| !self.set.contains(&&***s));
+        let own = r.set.iter().filter(|s| !self.set.contains(s));
         let run = [r.level.clone()].into_iter().chain(own.cloned());
         let iterations = match number("newton_iterations") {
             n if n > 0.0 => fixed(0).text(n),
@@ -131,7 +106,7 @@ impl Problem {
             name.to_owned(),
             run.collect::<Vec<_>>().join(" "),
             format!("{}: {}", self.motion.0, SHORT.text(self.error(r))),
-            SHORT.text((self.pressure)(r).abs()),
+            SHORT.text(self.error_of_pressure(r)),
             r.work.steps.to_string(),
             iterations,
             SHORT.text(r.time.cpu_s),
@@ -145,7 +120,7 @@ fn ratio(r: &Record, other: &Record) -> f64 {
 }
 
 /// The table of some runs, the runs it contains, and its conclusion in a sentence.
-pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, String) {
+pub(super) fn table<'a>(records: &[&'a Record]) -> Result<(Sheet, Vec<&'a Record>, String), Error> {
     let head = [
         "problem",
         "solver",
@@ -159,7 +134,7 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, Stri
     ];
     let (mut rows, mut told) = (Vec::new(), Vec::new());
     let (mut cheaper, mut dearer) = (Vec::new(), Vec::new());
-    for problem in &PROBLEMS {
+    for problem in problems()? {
         let Some([explicit, implicit]) = problem.rivals(records) else { continue };
         rows.push(problem.row(explicit, None));
         rows.push(problem.row(implicit, Some(explicit)));
@@ -174,7 +149,7 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> (Sheet, Vec<&'a Record>, Stri
         list(cheaper),
         list(dearer)
     );
-    (Sheet::new(head).with(rows), told, advice)
+    Ok((Sheet::new(head).with(rows), told, advice))
 }
 
 #[cfg(test)]
@@ -187,7 +162,7 @@ mod tests {
     fn run(rule: Option<RuleName>, level: &str, set: &[&str], error: f64, cpu: f64) -> Record {
         let mut r = record(level, Vec::new());
         r.set = set.iter().map(|s| (*s).to_owned()).collect();
-        let (basis, remedy) = (Gimp, FbarConsistent);
+        let (basis, remedy) = (BasisName::Gimp, RemedyName::FbarConsistent);
         r.scheme = match rule {
             Some(rule) => Scheme::implicit(rule, basis, remedy),
             None => Scheme::flip(basis, remedy),
@@ -197,6 +172,20 @@ mod tests {
         r.metrics.insert("fem_tip_error".to_owned(), value);
         r.time.cpu_s = cpu;
         r
+    }
+
+    #[test]
+    fn problems_name_what_there_is() {
+        let all = problems().unwrap();
+        assert_eq!(all.iter().filter(|p| p.panel.is_some()).count(), 4);
+        for problem in &all {
+            let case = cases::find(&problem.case).unwrap();
+            for name in [&problem.motion.1].into_iter().chain(&problem.pressure) {
+                assert!(case.metrics.iter().any(|m| m.name == name), "{}: {name}", case.name);
+            }
+            assert!(case.schemes().contains(&problem.scheme), "{}", case.name);
+            crate::parameter::Parameters::new(&case.parameters, &problem.set).unwrap();
+        }
     }
 
     /// The finest implicit run has no explicit rival; the error of both is that of the coarser level.
@@ -213,7 +202,7 @@ mod tests {
             // A run of another problem.
             run(still, "h1", &["load=10"], 0.01, 0.01),
         ];
-        let (sheet, told, advice) = table(&runs.each_ref());
+        let (sheet, told, advice) = table(&runs.each_ref()).unwrap();
         assert_eq!(told.len(), 2);
         assert!(std::ptr::eq(told[0], &runs[1]) && std::ptr::eq(told[1], &runs[4]));
         assert_eq!(sheet.rows[1][8], "0.05");
@@ -224,6 +213,6 @@ mod tests {
     #[test]
     fn what_only_one_can_solve_is_left_out() {
         let runs = [run(None, "h2", &[], 0.1, 1.0)];
-        assert!(table(&runs.each_ref()).0.rows.is_empty());
+        assert!(table(&runs.each_ref()).unwrap().0.rows.is_empty());
     }
 }

@@ -1,7 +1,7 @@
 //! Cost of the errors of some problems, by explicit steps and by implicit ones of several lengths.
 
 use super::prelude::*;
-use super::rivals::{PROBLEMS, Problem};
+use super::rivals::{Problem, problems};
 use crate::draw::{Dash, Marker};
 use crate::figure::{Figure, Panel};
 use crate::scheme::RuleName;
@@ -24,19 +24,15 @@ fn curve(r: &Record) -> Option<String> {
 }
 
 fn panel<'a>(records: &'a [Record], problem: &Problem) -> Option<Panel<'a>> {
-    let title = problem.panel?;
-    let own = |r: &Record| {
-        let of_case = r.case == problem.case && (r.basis(), r.remedy()) == problem.schemes && r.time.cpu_s > 0.0;
-        if of_case { curve(r) } else { None }
-    };
-    let mut runs: Vec<(String, &Record)> = records.iter().filter_map(|r| Some((own(r)?, r))).collect();
-    runs.sort_by(|a, b| a.0.cmp(&b.0));
-    let (name, error) = problem.motion;
-    let point = |r: &Record| (r.time.cpu_s, r.value(error).abs());
-    let panel = Panel::new(title, ["CPU time (s)", &format!("error of {name}")])
+    let title = problem.panel.as_ref()?;
+    let own = |r: &&Record| problem.has(r) && r.time.cpu_s > 0.0 && curve(r).is_some();
+    let mut runs: Vec<&Record> = records.iter().filter(own).collect();
+    runs.sort_by_cached_key(|r| curve(r));
+    let point = |r: &Record| (r.time.cpu_s, problem.error(r));
+    let panel = Panel::new(title, ["CPU time (s)", &format!("error of {}", problem.motion.0)])
         .log_x()
         .log_y()
-        .points_by(runs.into_iter().map(|(_, r)| r), |r| curve(r).unwrap_or_default(), point)
+        .points_by(runs, |r| curve(r).unwrap_or_default(), point)
         .least(2)
         .styled(|k, curve| Series {
             dash: match &*curve.name {
@@ -52,6 +48,7 @@ fn panel<'a>(records: &'a [Record], problem: &Problem) -> Option<Panel<'a>> {
 
 /// Draws it, if there are such runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
-    let panels = PROBLEMS.iter().filter_map(|problem| panel(gallery.records, problem));
+    let problems = problems()?;
+    let panels = problems.iter().filter_map(|problem| panel(gallery.records, problem));
     Figure::new("solvers", "", panels).columns(2).whole().draw(gallery)
 }

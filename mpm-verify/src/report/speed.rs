@@ -89,10 +89,8 @@ impl Speed {
         };
         let never = |remedy: RemedyName, name: &str| {
             let not = |(_, p): &&(&str, Prices)| p.has(remedy) && p.cheapest(remedy).is_none();
-            let titles = self.0.iter().filter(not).map(|(title, p)| match p.of_stress {
-                true => format!("{title} (pressure)"),
-                false => format!("{title} (motion)"),
-            });
+            let what = |p: &Prices| if p.of_stress { "pressure" } else { "motion" };
+            let titles = self.0.iter().filter(not).map(|(title, p)| format!("{title} ({})", what(p)));
             format!("{name} never reaches the target in: {}.", list(titles))
         };
         format!(

@@ -47,7 +47,7 @@ impl Page {
             return Err(Error::file(&results, "there is no such file"));
         }
         let rows = rows::read(&results)?;
-        let (tables, values) = (tables(&rows), Values::new(&rows));
+        let (tables, values) = (tables(&rows)?, Values::new(&rows));
         let mut files = vec![root.join("README.md")];
         let docs = root.join("docs");
         for entry in fs::read_dir(&docs).map_err(|e| Error::file(&docs, e))? {
@@ -150,7 +150,7 @@ impl Page {
 }
 
 /// Every table by its name, in Markdown, with the oldest of the runs that it tells of.
-fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
+fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
     let kept: Vec<(Record, Date)> = rows.iter().filter_map(|row| Some((row.record()?, row.night))).collect();
     let records = || kept.iter().map(|(r, _)| r);
     let oldest = |told: &[&Record]| {
@@ -184,15 +184,10 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
         }
         _ => String::new(),
     };
-    let prices = match speed.is_empty() {
-        true => String::new(),
-        false => format!("{}\n{}\n", speed.table().markdown(), wrapped(&speed.advice())),
-    };
-    let (sheet, told, advice) = rivals::table(&records().collect::<Vec<_>>());
-    let rivals = match told.is_empty() {
-        true => String::new(),
-        false => format!("{}\n{}\n{}", sheet.markdown(), wrapped(&advice), oldest(&told)),
-    };
+    let unless = |empty: bool, text: String| if empty { String::new() } else { text };
+    let prices = format!("{}\n{}\n", speed.table().markdown(), wrapped(&speed.advice()));
+    let (sheet, told, advice) = rivals::table(&records().collect::<Vec<_>>())?;
+    let rivals = format!("{}\n{}\n{}", sheet.markdown(), wrapped(&advice), oldest(&told));
     let panels = map::panels(records(), &speed);
     let map = map::PANELS.map(|name| {
         let text = panels.iter().find(|panel| panel.name == name).map(|panel| {
@@ -206,8 +201,12 @@ fn tables(rows: &[rows::Row]) -> BTreeMap<String, String> {
     let of_cases = cases::all().iter().flat_map(|c| c.tables.iter().map(|t| table(t, Some(c.name))));
     let over_cases = criteria::all();
     let over_cases = over_cases.iter().map(|t| table(t, None)).chain(map);
-    let costs = [("outcomes", outcomes), (speed::NAME, prices), (rivals::NAME, rivals)];
-    of_cases.chain(over_cases).chain(costs.map(|(name, text)| (name.to_owned(), text))).collect()
+    let costs = [
+        ("outcomes", outcomes),
+        (speed::NAME, unless(speed.is_empty(), prices)),
+        (rivals::NAME, unless(told.is_empty(), rivals)),
+    ];
+    Ok(of_cases.chain(over_cases).chain(costs.map(|(name, text)| (name.to_owned(), text))).collect())
 }
 
 #[cfg(test)]
@@ -227,7 +226,7 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
         };
         write(RESULTS, ROWS);
         write("README.md", shown);
-        let all = tables(&[]);
+        let all = tables(&[]).unwrap();
         let others = all.keys().filter(|name| !shown.contains(&format!("table {name} ")));
         let others = others.map(|name| format!("{BEGIN}{name}{CLOSE}\n{END}\n"));
         write("docs/others.md", &others.collect::<String>());

@@ -152,12 +152,6 @@ impl Cell {
     pub(super) fn aside(self, aside: impl Into<String>) -> Self {
         Self { aside: aside.into(), ..self }
     }
-
-    /// A text that is a number, if it looks like one, to the right.
-    fn of_sheet(text: &str) -> Self {
-        let is_number = text.starts_with(|c| "0123456789-−–≤≥~".contains(c)) || text == "never";
-        Self::of(text, if is_number { "num" } else { "" })
-    }
 }
 
 /// A row of a table; links lead to its id.
@@ -184,8 +178,10 @@ pub(super) struct Table {
 
 impl From<Sheet> for Table {
     fn from(sheet: Sheet) -> Self {
+        // What looks like a number stands to the right.
+        let is_number = |text: &str| text.starts_with(|c| "0123456789-−–≤≥~".contains(c)) || text == "never";
         let row = |row: &Vec<String>| {
-            let rest = row.iter().skip(1).map(|cell| Cell::of_sheet(cell));
+            let rest = row.iter().skip(1).map(|text| Cell::of(&**text, if is_number(text) { "num" } else { "" }));
             row.first().map(|cell| Cell::head(cell.as_str())).into_iter().chain(rest).into()
         };
         let head = sheet.head.iter().map(|title| title.as_str().into());

@@ -24,11 +24,11 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, See
     page.classed("lead", lead);
     page.paragraph(case.description);
     let failed = study.verdicts_of_all().filter(|(_, v)| v.failed());
-    let failed: Vec<_> = failed.map(|(record, v)| (Some(run(study, record)), v)).collect();
-    let has_failed = !failed.is_empty();
+    let failed = verdicts::table(failed.map(|(record, v)| (Some(run(study, record)), v)));
+    let has_failed = !failed.rows.is_empty();
     if has_failed {
         page.section("failed", "Failures");
-        page.table("Failed checks", verdicts::table(failed));
+        page.table("Failed checks", failed);
     }
     let mut pictures = pictures(study, out).into_iter();
     if let Some(first) = pictures.next() {

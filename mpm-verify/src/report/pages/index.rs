@@ -108,8 +108,7 @@ fn of_cases(summary: &Summary, out: &Path) -> Result<Table, Error> {
         let case = cases::find(&study.case)?;
         let name = Text::link(case.title, file_of(study));
         let name = name.then_below(Text::code(case.name)).then(" · ").then(docs(study));
-        let thumb = pictures(study, out).into_iter().next();
-        let thumb = thumb.map(|p| {
+        let thumb = pictures(study, out).into_iter().next().map(|p| {
             let still = if p.still.is_empty() { p.file } else { p.still };
             Text::thumb(p.caption, still)
         });
