@@ -39,9 +39,7 @@ pub fn write_scored(scores: &Scores, gate: &Gate, file: &Path) -> Result<(), Err
 
 fn suite(study: &CaseStudy) -> TestSuite {
     let mut suite = TestSuite::new(&*study.case);
-    for record in &study.records {
-        suite.add_test_cases(of_run(record));
-    }
+    suite.add_test_cases(study.records.iter().flat_map(of_run));
     let class = format!("{}.runs-together", study.case);
     suite.add_test_cases(study.verdicts.iter().map(|v| test(&class, name(v), status(v))));
     suite

@@ -69,7 +69,7 @@ impl Problem {
 
     fn title(&self) -> String {
         let title = cases::find(&self.case).map_or(&*self.case, |case| case.title);
-        format!("{title} ({} {})", self.scheme.basis(), self.scheme.remedy())
+        format!("{title} ({})", self.scheme.title())
     }
 
     /// The cheapest run of each kind of solver among those whose error is that which both reach.

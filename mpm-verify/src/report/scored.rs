@@ -39,13 +39,11 @@ impl Ours {
     }
 
     fn of(scored: &Scored) -> Result<Self, Error> {
-        let built = || Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
-        let here = PathBuf::from(RESULTS);
-        let file = if here.exists() { here } else { built() };
-        if !file.exists() {
+        let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
+        let Some(file) = [PathBuf::from(RESULTS), built].into_iter().find(|file| file.exists()) else {
             let absent = format!("our runs: no {RESULTS} here; a checkout of the project has it");
             return Ok(Self { runs: Vec::new(), absent: Some(absent) });
-        }
+        };
         let kept = rows::read(&file)?.into_iter().filter(|row| row.case == scored.case.name);
         let kept: Vec<Record> = kept.filter_map(|row| row.record()).collect();
         let asked = &scored.record;
@@ -148,9 +146,7 @@ fn of_run(scored: &Scored, ours: &Ours) -> String {
     t += &found(scored.case, record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
     let _ = writeln!(t, "\n{}", aligned(table(scored, ours)));
-    if let Some(absent) = &ours.absent {
-        t += &wrapped(absent, "", "  ");
-    }
+    t.extend(ours.absent.iter().map(|absent| wrapped(absent, "", "  ")));
     t + if scored.manifest.run > 0 { "\n" } else { "" }
 }
 
@@ -213,9 +209,7 @@ pub fn write(scores: &Scores, ours: &[Ours], gate: &Gate, folder: &Path) -> Resu
         document.table("", beside);
         ours.absent.iter().for_each(|absent| document.paragraph(&**absent));
         document.table("", verdicts::table(run.record.verdicts.iter().map(|v| (None, v))));
-        for note in notes(run) {
-            document.paragraph(inert(&note));
-        }
+        notes(run).iter().for_each(|note| document.paragraph(inert(note)));
     }
     for (name, study, levels) in ladders(scores) {
         document.section("", name);

@@ -106,8 +106,7 @@ impl Speed {
 
     /// The basis with which a remedy reaches most targets at the least cost.
     fn basis(&self, remedy: RemedyName) -> String {
-        let of_all = self.0.iter().filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis()));
-        let of_all: Vec<BasisName> = of_all.collect();
+        let of_all = self.0.iter().filter_map(|(_, p)| Some(p.cheapest(remedy)?.scheme.basis())).collect::<Vec<_>>();
         let count = |basis: &BasisName| of_all.iter().filter(|b| *b == basis).count();
         distinct(of_all.iter().copied()).into_iter().max_by_key(count).map_or_else(
             || "–".to_owned(),

@@ -16,7 +16,8 @@ pub(super) fn draw(study: &CaseStudy, out: &Path) -> Result<Vec<Picture>, Error>
         let shown = |q: &&Quantity| q.is_error && runs.measure(q);
         let (mut entries, mut rows) = (Vec::new(), Vec::new());
         for metric in case.quantities.iter().filter(shown).map(|q| q.metric) {
-            for (&scheme, value, run) in runs.all() {
+            let of_all = runs.of_scheme.iter().flat_map(|(scheme, own)| own.iter().map(move |run| (*scheme, run)));
+            for (scheme, &(value, run)) in of_all {
                 let (x, error) = ((sweep.abscissa)(value), run.metric(metric));
                 if error.is_finite() {
                     let words = [metric.name, &scheme.to_string(), runs.level].map(str::to_owned);
@@ -76,11 +77,6 @@ impl<'a> Runs<'a> {
         self.of_scheme
             .values()
             .any(|runs| runs.iter().filter(|run| run.1.metric(quantity.metric).is_finite()).count() >= LEAST_VALUES)
-    }
-
-    fn all(&self) -> impl Iterator<Item = (&Scheme, f64, &Record)> {
-        let runs = self.of_scheme.iter();
-        runs.flat_map(|(scheme, runs)| runs.iter().map(move |(value, run)| (scheme, *value, *run)))
     }
 }
 
