@@ -61,7 +61,7 @@ pub(super) fn write(study: &CaseStudy, out: &Path) -> Result<(), Error> {
     let mut head = HEAD.map(str::to_owned).to_vec();
     head.insert(3, "run".to_owned());
     let number = |x: Option<f64>| x.map_or_else(String::new, |x| x.to_string());
-    let rows = study.verdicts_of_all().filter(|(_, v)| v.kind != Kind::Drift).map(|(run, v)| {
+    let rows = study.all_verdicts().filter(|(_, v)| v.kind != Kind::Drift).map(|(run, v)| {
         let run = run.map_or_else(|| "runs together".to_owned(), Record::folder);
         let words = [outcome(v.outcome), kind(v.kind), &v.check, &run, &v.metric];
         let numbers = [v.value, v.reference, v.tolerance].map(number);

@@ -39,7 +39,7 @@ impl CaseStudy {
     }
 
     /// The verdicts on the runs, then those on runs together.
-    pub(crate) fn verdicts_of_all(&self) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
+    pub(crate) fn all_verdicts(&self) -> impl Iterator<Item = (Option<&Record>, &Verdict)> + Clone {
         let single = self.records.iter().flat_map(|r| r.verdicts.iter().map(move |v| (Some(r), v)));
         single.chain(self.verdicts.iter().map(|v| (None, v)))
     }
@@ -169,7 +169,7 @@ impl Summary {
 
     /// All verdicts, each with the run it is about (none for those on runs together).
     pub fn verdicts(&self) -> impl Iterator<Item = (&CaseStudy, Option<&Record>, &Verdict)> {
-        self.cases.iter().flat_map(|study| study.verdicts_of_all().map(move |(run, v)| (study, run, v)))
+        self.cases.iter().flat_map(|study| study.all_verdicts().map(move |(run, v)| (study, run, v)))
     }
 }
 

@@ -23,7 +23,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, See
     }
     page.classed("lead", lead);
     page.paragraph(case.description);
-    let failed = study.verdicts_of_all().filter(|(_, v)| v.failed());
+    let failed = study.all_verdicts().filter(|(_, v)| v.failed());
     let failed = verdicts::table(failed.map(|(record, v)| (Some(run(study, record)), v)));
     let has_failed = !failed.rows.is_empty();
     if has_failed {
@@ -87,7 +87,7 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, See
 
 /// How the runs of a case came out, in a sentence.
 fn sentence(study: &CaseStudy) -> String {
-    let limits = study.verdicts_of_all().filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
+    let limits = study.all_verdicts().filter(|(_, v)| v.outcome == Outcome::WrongAsKnown);
     let limits = distinct(limits.map(|(_, v)| &*v.check));
     let seen = match limits.is_empty() {
         true => String::new(),
@@ -160,7 +160,7 @@ fn of_runs(case: &Case, study: &CaseStudy) -> Table {
 /// Every check with its outcomes and the number of seeded faults that it sees: those that the case declares, then those that
 /// every case has.
 fn checks(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, Seen>) -> Table {
-    let all = || study.verdicts_of_all().map(|(_, v)| v);
+    let all = || study.all_verdicts().map(|(_, v)| v);
     let is_declared = |v: &Verdict| case.checks.iter().any(|c| c.name == v.check);
     let others = all().filter(|v| v.kind != Kind::Drift && !is_declared(v));
     let others = distinct(others.map(|v| (&*v.check, v.kind, &*v.source)));
