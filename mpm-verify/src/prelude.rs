@@ -30,7 +30,7 @@ pub(crate) use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceNam
 pub(crate) use crate::setup::{Run, Setup};
 pub(crate) use crate::sketch::Sketch;
 pub(crate) use crate::spec::{Level, RunSpec};
-pub(crate) use crate::statistics::{fit_line, rms};
+pub(crate) use crate::statistics::{fit_line, half_period, mean, rms};
 pub(crate) use crate::table::Table;
 pub(crate) use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 pub(crate) use mpm_core::explicit::courant_time_step;

@@ -1,4 +1,4 @@
-//! Small statistics, and a geometric series.
+//! Small statistics, roots, and a geometric series.
 
 /// A straight line fitted by least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +38,23 @@ pub(crate) fn fit_line(points: &[(f64, f64)]) -> Option<Line> {
         intercept: my - slope * mx,
         r_squared: if syy > 0.0 { sxy * sxy / (sxx * syy) } else { 1.0 },
     })
+}
+
+/// Half the period of what swings, given as points over time, by a straight line through its zeros between them.
+pub(crate) fn half_period(points: &[(f64, f64)]) -> Option<f64> {
+    let zeros = points.windows(2).filter_map(|pair| {
+        let [(t, u), (after, then)] = [pair[0], pair[1]];
+        (u * then < 0.0).then(|| t + (after - t) * u / (u - then))
+    });
+    let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
+    Some(fit_line(&zeros)?.slope)
+}
+
+/// The mean; NaN of nothing.
+pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut count = 0usize;
+    let sum: f64 = values.into_iter().inspect(|_| count += 1).sum();
+    sum / count as f64
 }
 
 /// Root mean square; NaN of nothing, which no check passes.
@@ -91,21 +108,22 @@ pub(crate) fn checkerboard(field: &[f64], averaged: &[f64]) -> f64 {
 /// The factor by which each of `count` durations grows over the one before, the first of which is `first`, so that
 /// their sum is `whole`.
 pub(crate) fn growth(first: f64, count: i32, whole: f64) -> f64 {
-    // The sum of a geometric series rises with its ratio: halved until nothing changes.
+    // The sum of a geometric series rises with its ratio.
     let sum = |ratio: f64| (0..count).fold(0.0, |sum, _| 1.0 + ratio * sum) * first;
-    let (mut lo, mut hi) = (0.0, 2.0);
+    let mut hi = 2.0;
     while sum(hi) < whole {
         hi *= 2.0;
     }
+    root((0.0, hi), |ratio| whole - sum(ratio))
+}
+
+/// The root of a falling function between two ends, until no number is left between them.
+pub(crate) fn root((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..200 {
-        let middle = 0.5 * (lo + hi);
-        if sum(middle) < whole {
-            lo = middle;
-        } else {
-            hi = middle;
-        }
+        let middle = 0.5 * (low + high);
+        if of(middle) > 0.0 { low = middle } else { high = middle }
     }
-    0.5 * (lo + hi)
+    0.5 * (low + high)
 }
 
 #[cfg(test)]

@@ -36,7 +36,7 @@ impl Edge {
         let edge = self.at_edge(displacement);
         let [y0, y1] = [0, 1].map(|row| self.references[row][1]);
         let corner = edge[0] - (edge[1] - edge[0]) * y0 / (y1 - y0);
-        [corner, edge.iter().sum::<f64>() / edge.len() as f64]
+        [corner, mean(edge)]
     }
 
     /// Metrics of the displacements along x and y (m).

@@ -123,8 +123,7 @@ impl Flow {
         if self.at(time).is_none() {
             return f64::NAN;
         }
-        let values: Vec<f64> = (self.rows.iter()).filter(|row| row.time < time + 1e-6).map(f).collect();
-        values.iter().sum::<f64>() / values.len() as f64
+        mean((self.rows.iter()).filter(|row| row.time < time + 1e-6).map(f))
     }
 
     /// Metrics of water of a density, on cells of size `h` (m).

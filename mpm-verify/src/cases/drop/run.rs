@@ -89,10 +89,7 @@ impl Falling {
     /// Speed of turning (m/s) of the middle of a side.
     fn spin(&self, run: &dyn Simulation<2>) -> f64 {
         let p = run.particles();
-        let count = p.len() as f64;
-        let mean = |column: &[[f64; 2]], a: usize| column.iter().map(|v| v[a]).sum::<f64>() / count;
-        let centre = [0, 1].map(|a| mean(&p.position, a));
-        let moving = [0, 1].map(|a| mean(&p.velocity, a));
+        let [centre, moving] = [&p.position, &p.velocity].map(|of| [0, 1].map(|a| mean(of.iter().map(|v| v[a]))));
         let (mut moment, mut inertia) = (0.0, 0.0);
         for (x, v) in p.position.iter().zip(&p.velocity) {
             let arm = [x[0] - centre[0], x[1] - centre[1]];

@@ -59,8 +59,7 @@ impl LoadCurve<'_> {
 
     /// Mean of a quantity of the rows of which `keep` holds; NaN if there are none.
     fn mean(&self, keep: impl Fn(&Load) -> bool, f: impl Fn(&Load) -> f64) -> f64 {
-        let kept: Vec<f64> = self.rows.iter().filter(|r| keep(r)).map(f).collect();
-        kept.iter().sum::<f64>() / kept.len() as f64
+        mean(self.rows.iter().filter(|r| keep(r)).map(f))
     }
 
     fn on_plateau(&self, row: &Load) -> bool {
@@ -147,8 +146,7 @@ impl Surface {
     /// Mean rise within [`BESIDE`] over what the footing sinks.
     fn heave(&self) -> f64 {
         let beside = (self.0.iter()).filter(|(x, _)| (BESIDE.0..BESIDE.1).contains(x));
-        let rises: Vec<f64> = beside.map(|(_, rise)| *rise).collect();
-        rises.iter().sum::<f64>() / rises.len() as f64 / self.sinking()
+        mean(beside.map(|(_, rise)| *rise)) / self.sinking()
     }
 
     /// Metrics of the surface.

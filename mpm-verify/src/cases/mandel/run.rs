@@ -150,12 +150,6 @@ impl Consolidation {
     }
 }
 
-/// NaN if there are no values.
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (sum, count) = values.fold((0.0, 0.0), |(sum, count), v| (sum + v, count + 1.0));
-    sum / count
-}
-
 /// Raises `most` to |a − b|; NaN stays NaN.
 fn raise(most: &mut f64, a: f64, b: f64) {
     let distance = (a - b).abs();

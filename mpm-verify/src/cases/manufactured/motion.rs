@@ -184,12 +184,7 @@ impl<const D: usize, K: Known> Motion<D, K> {
     /// over that in the first.
     pub(super) fn vibration(&self, rows: &[Sample]) -> Option<[(Metric, f64); 4]> {
         let (omega, end) = (self.frequency?, rows.last()?.time);
-        let zeros = rows.windows(2).filter_map(|pair| {
-            let ([a, b], crosses) = ([pair[0], pair[1]], pair[0].mode * pair[1].mode < 0.0);
-            crosses.then(|| a.time + (b.time - a.time) * a.mode / (a.mode - b.mode))
-        });
-        let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
-        let half_period = fit_line(&zeros)?.slope;
+        let half_period = half_period(&rows.iter().map(|r| (r.time, r.mode)).collect::<Vec<_>>())?;
         let period = TAU / omega;
         let largest = |from: f64, to: f64| {
             rows.iter().filter(|r| (from..=to).contains(&r.time)).map(|r| r.mode.abs()).fold(0.0, f64::max)

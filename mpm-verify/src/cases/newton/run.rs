@@ -92,8 +92,7 @@ impl Loaded {
     fn gaps(&self, run: &dyn Simulation<2>, share: f64) -> Result<[f64; 2], Fault> {
         let (p, floor) = (run.particles(), self.floor());
         let lowest = p.reference.iter().zip(&p.position).filter(|([_, y], _)| *y < self.setup.pitch());
-        let gaps: Vec<f64> = lowest.map(|(_, [_, y])| y - floor).collect();
-        let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
+        let mean = mean(lowest.map(|(_, [_, y])| y - floor));
         Ok([mean, self.barrier()?.gap(share * self.weight * self.setup.pitch())])
     }
 
@@ -116,9 +115,7 @@ impl Loaded {
             })
             .collect();
         // A standing column moves with the gap as well, which is judged by itself.
-        let count = moved.len() as f64;
-        let shift =
-            if self.setup.stands() { moved.iter().map(|[u, exact]| u - exact).sum::<f64>() / count } else { 0.0 };
+        let shift = if self.setup.stands() { mean(moved.iter().map(|[u, exact]| u - exact)) } else { 0.0 };
         Some(rms(moved.iter().map(|[u, exact]| (u - exact - shift) / HEIGHT)))
     }
 

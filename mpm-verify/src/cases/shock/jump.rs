@@ -1,10 +1,9 @@
 //! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
 
 use crate::cases::prelude::*;
+use crate::statistics::root;
 use nalgebra::Matrix3;
 
-/// Halvings of the interval in which the stretch is.
-const HALVINGS: u32 = 200;
 /// Slices of a front that are summed.
 const SLICES: usize = 1000;
 /// Relative step of derivatives.
@@ -40,17 +39,7 @@ impl Jump {
     /// The jump of a bar of this density (kg/m³) that runs into a wall at `speed` (m/s). Mass: V = S (1 − F). Momentum:
     /// −P = ρ₀ S V. So −P (1 − F) = ρ₀ V², whose left side falls as F rises.
     pub(super) fn new(law: &NeoHookean, density: f64, speed: f64) -> Self {
-        let (mut lo, mut hi) = (0.0, 1.0);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (lo + hi);
-            let left = -stress(law, middle) * (1.0 - middle);
-            if left > density * speed * speed {
-                lo = middle;
-            } else {
-                hi = middle;
-            }
-        }
-        let stretch = 0.5 * (lo + hi);
+        let stretch = root((0.0, 1.0), |f| -stress(law, f) * (1.0 - f) - density * speed * speed);
         let own = stress(law, stretch);
         let (_, state) = law.at_rest(&stretched(stretch));
         let lost = 0.5 * density * speed * speed - law.energy(&state);

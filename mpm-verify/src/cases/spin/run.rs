@@ -117,8 +117,7 @@ impl Problem<2> for Spin {
         let rest = (squares.sum::<f64>() / totals.mass).sqrt();
         let exact = |k: usize| (own[k] / own[0]).powi(2);
         let stretch = |k: usize| (radius[k] - rest) / (radius[0] - rest) - exact(k);
-        let late = spun.len() / 2..spun.len();
-        let mean = late.clone().map(stretch).sum::<f64>() / late.len() as f64;
+        let mean = mean((spun.len() / 2..spun.len()).map(stretch));
         // Between rows the disc turns by less than half a turn.
         let steps = angle.windows(2).map(|pair| {
             let turned = pair[1] - pair[0];

@@ -169,7 +169,7 @@ impl Stretching {
         if shares.is_empty() {
             return [0.0, 1.0];
         }
-        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+        let mean = mean(shares.iter().copied());
         [mean, rms(shares.iter().map(|s| s - 1.0))]
     }
 }

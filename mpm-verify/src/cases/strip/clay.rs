@@ -1,9 +1,8 @@
 //! The clay by itself: the limit load of undrained clay without weight, and clay in uniaxial strain that water leaves freely.
 
 use super::*;
+use crate::statistics::root;
 
-/// Halvings of a bracket: until no number is left between its ends.
-const HALVINGS: u32 = 200;
 /// Logarithmic strain of a step of Runge and Kutta's rule: its errors are far below those of a run.
 const STEP: f64 = 1e-5;
 /// More strain than any load makes.
@@ -11,16 +10,6 @@ const MOST: f64 = 1.0;
 
 /// Elastic volume and shear strain and plastic volume strain of the classical law, compression positive.
 type State = [f64; 3];
-
-/// The root of a falling function between two ends.
-fn root(ends: (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
-    let (mut low, mut high) = ends;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if of(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
 
 impl Setup<Strip> {
     /// Effective pressure (Pa) at an elastic volume strain `v`, compression positive, of the improved Hencky law.

@@ -115,12 +115,7 @@ impl Problem<2> for Swing {
     fn metrics(&self, seen: &Rows, _: &mut Phase<2>) -> Vec<(Metric, f64)> {
         let points = seen.points(["time", "deflection"]);
         // The deflection at the start is zero.
-        let zeros = points[1..].windows(2).filter_map(|pair| {
-            let [(t, u), (after, then)] = [pair[0], pair[1]];
-            (u * then < 0.0).then(|| t + (after - t) * u / (u - then))
-        });
-        let zeros: Vec<(f64, f64)> = zeros.enumerate().map(|(k, t)| (k as f64, t)).collect();
-        let half_period = fit_line(&zeros).map_or(f64::NAN, |line| line.slope);
+        let half_period = half_period(&points[1..]).unwrap_or(f64::NAN);
         let ratio = 0.5 * TAU / half_period / self.mode.frequency;
         let period = ROWS as usize;
         let largest = |points: &[(f64, f64)]| points.iter().map(|(_, u)| u.abs()).fold(0.0, f64::max);

@@ -35,7 +35,7 @@ impl Translation {
     fn stresses(&self, run: &mut dyn Simulation<2>) -> [f64; 2] {
         let stress = run.force_stress();
         let stress: Vec<f64> = stress.iter().map(|s| s.get(0, 0) / self.stress).collect();
-        let mean = stress.iter().sum::<f64>() / stress.len() as f64;
+        let mean = mean(stress.iter().copied());
         [mean, rms(stress.iter().map(|s| s - mean))]
     }
 
@@ -140,8 +140,7 @@ impl Problem<2> for Translation {
                 .map(|name| seen.column(name));
         let rows = 0..noise.len();
         let largest = |of: &dyn Fn(usize) -> f64| rows.clone().map(of).fold(0.0, f64::max);
-        let late = &noise[noise.len() / 2..];
-        let mean = late.iter().sum::<f64>() / late.len() as f64;
+        let mean = mean(noise[noise.len() / 2..].iter().copied());
         let energy = |k: usize| kinetic[k] + stored[k];
         let rise = |k: usize| (energy(k) - energy(0)) / kinetic[0];
         let mut values = vec![

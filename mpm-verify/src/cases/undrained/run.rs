@@ -233,7 +233,7 @@ impl Body {
         let both: Vec<(f64, f64)> = of_motion(0).chain(of_motion(1)).collect();
         // A constant pressure moves nothing where all of the edge is held.
         let values = p.values(pressure);
-        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        let mean = mean(values.iter().copied());
         let of_pressure: Vec<(f64, f64)> = values.iter().zip(&exact).map(|(v, e)| (v - mean - e[2], e[2])).collect();
         let relative = |pairs: &[(f64, f64)]| rms(pairs.iter().map(|p| p.0)) / rms(pairs.iter().map(|p| p.1));
         let scale = rms(exact.iter().map(|e| e[2]));
