@@ -442,6 +442,13 @@ impl<P: ParameterSet> From<CheckOf<P>> for Check {
     }
 }
 
+/// Whether two runs differ in the parameter `name` only.
+pub(crate) fn same_but<P>(name: &str, run: &Run<P>, other: &Run<P>) -> bool {
+    let names = [name];
+    let [own, others] = [run, other].map(|r| r.record.changed_beside(&names));
+    (run.scheme, &run.level) == (other.scheme, &other.level) && own.eq(others)
+}
+
 /// Whether two runs differ in their schemes only.
 pub(crate) fn same_but_scheme<P>(run: &Run<P>, other: &Run<P>) -> bool {
     run.level == other.level && run.set == other.set

@@ -4,7 +4,7 @@ pub(crate) use crate::accuracy::fit_order;
 pub(crate) use crate::case::Tier::{Long, Nightly, Pr, Quick};
 pub(crate) use crate::case::{Begin, Case, Family, FieldView, Plan};
 pub(crate) use crate::check::{Check, Finding};
-pub(crate) use crate::demand::{CheckOf, Demand, Held, Over, Quantity, SLACK, same_but_scheme};
+pub(crate) use crate::demand::{CheckOf, Demand, Held, Over, Quantity, SLACK, same_but, same_but_scheme};
 pub(crate) use crate::draw::style::{history, series};
 pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields};
 pub(crate) use crate::error::Error;

@@ -296,8 +296,12 @@ impl Record {
 
     /// Whether no other parameters than those of these names were changed.
     pub(crate) fn changes_none_but(&self, names: &[&str]) -> bool {
-        let mut changed = self.set.iter().filter_map(|set| set.split('=').next());
-        changed.all(|name| names.contains(&name))
+        self.changed_beside(names).next().is_none()
+    }
+
+    /// The assignments that changed other parameters than those of these names.
+    pub(crate) fn changed_beside(&self, names: &[&str]) -> impl Iterator<Item = &String> {
+        self.set.iter().filter(|set| !set.split('=').next().is_some_and(|name| names.contains(&name)))
     }
 }
 

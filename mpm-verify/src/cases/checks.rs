@@ -27,6 +27,20 @@ pub(super) fn quadratic<P: ParameterSet>(largest: Metric, ratio: impl Fn(&Run<P>
         .at_most(largest, move |r| ratio(r).sqrt())
 }
 
+/// The runs that change the parameter `name`, each with the run that differs from it in nothing else.
+pub(super) fn changed<'a, 'r, P>(
+    runs: &'a [Run<'r, P>],
+    name: &'static str,
+) -> impl Iterator<Item = (&'a Run<'r, P>, &'a Run<'r, P>)> {
+    runs.iter().filter_map(move |run| {
+        let names = [name];
+        let others = || run.record.changed_beside(&names);
+        let same = |r: &&Run<P>| (r.scheme, &r.level) == (run.scheme, &run.level) && r.set.iter().eq(others());
+        let own = (others().count() < run.set.len()).then(|| runs.iter().find(same))??;
+        Some((run, own))
+    })
+}
+
 /// The last [`DECIDING`] of some runs, coarsest first; nothing of fewer.
 pub(super) fn finest<T>(runs: &[T]) -> Option<&[T]> {
     runs.get(runs.len().checked_sub(DECIDING)?..)

@@ -1,6 +1,7 @@
 //! Checks of the dam break. The tolerances are derived in `docs/dam-break.md`.
 
 use super::*;
+use crate::cases::checks::changed;
 use crate::cases::parameters::is_of_own_problem;
 use crate::exact::dam_break::{elastic_energy, energies, greatest_speed, passage, uncertainty};
 
@@ -238,11 +239,6 @@ pub(super) fn checks() -> Vec<Check> {
     ]
 }
 
-/// Whether an assignment `name=value` is of the parameter `name`.
-fn sets(assignment: &str, name: &str) -> bool {
-    assignment.split('=').next() == Some(name)
-}
-
 /// The runs of each scheme of F̄ with FLIP that are divided in time in one way, coarsest first.
 fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
     let judged = |w: &&Water| w.record.changes_none_but(&["cfl", "duration"]) && w.is_averaged() && w.is_flip();
@@ -309,7 +305,8 @@ fn against_standard(runs: &[Water]) -> Vec<Finding> {
 
 /// Effect of the start on the front.
 fn starts(runs: &[Water]) -> Vec<Finding> {
-    let found = changed(runs, |w| w.start == Rest::GravityStage, "start").map(|(run, own)| {
+    let staged = |(run, _): &(&Water, &Water)| run.start == Rest::GravityStage;
+    let found = from_own(runs, "start").filter(staged).map(|(run, own)| {
         let exact = own.metric(FRONT_X_EARLY);
         let source = format!("{} {}: the exact start", run.scheme, run.level);
         Finding::within(FRONT_X_EARLY, run.metric(FRONT_X_EARLY), exact, STARTS * (exact - LENGTH), source)
@@ -319,7 +316,8 @@ fn starts(runs: &[Water]) -> Vec<Finding> {
 
 /// Effect of the time step on the front.
 fn time_steps(runs: &[Water]) -> Vec<Finding> {
-    let found = changed(runs, |w| w.remedy() == FbarConsistent && w.is_flip(), "cfl").map(|(run, own)| {
+    let ours = |(run, _): &(&Water, &Water)| run.remedy() == FbarConsistent && run.is_flip();
+    let found = from_own(runs, "cfl").filter(ours).map(|(run, own)| {
         let (value, exact) = (run.metric(FRONT_X_EARLY), own.metric(FRONT_X_EARLY));
         let source = format!("{} {}: CFL number {} against {}", run.scheme, run.level, run.cfl, own.cfl);
         Finding::within(FRONT_X_EARLY, value, exact, TIME_STEP * run.h, source)
@@ -329,16 +327,6 @@ fn time_steps(runs: &[Water]) -> Vec<Finding> {
 
 /// Runs with a value of their own of the parameter `name`, each with the run that differs from it in that alone; the latter is
 /// of the case's own parameters except for its duration.
-fn changed<'a, 'r>(
-    runs: &'a [Water<'r>],
-    which: impl Fn(&Water) -> bool,
-    name: &str,
-) -> impl Iterator<Item = (&'a Water<'r>, &'a Water<'r>)> {
-    let own = runs.iter().filter(move |w| which(w) && w.set.iter().any(|set| sets(set, name)));
-    own.filter_map(move |run| {
-        let rest = || run.set.iter().filter(|set| !sets(set, name));
-        let same = |w: &&Water| (w.scheme, &w.level) == (run.scheme, &run.level) && w.set.iter().eq(rest());
-        let own = runs.iter().find(same)?;
-        own.set.iter().all(|set| sets(set, "duration")).then_some((run, own))
-    })
+fn from_own<'a, 'r>(runs: &'a [Water<'r>], name: &'static str) -> impl Iterator<Item = (&'a Water<'r>, &'a Water<'r>)> {
+    changed(runs, name).filter(|(_, own)| own.record.changes_none_but(&["duration"]))
 }

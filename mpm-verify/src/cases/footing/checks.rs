@@ -330,13 +330,8 @@ fn load_curve(run: &Run<Footing>) -> Vec<Finding> {
 }
 
 fn has_half_the_rate(run: &Run<Footing>, other: &Run<Footing>) -> bool {
-    fn others<'a>(r: &'a Run<Footing>) -> impl Iterator<Item = &'a String> {
-        r.set.iter().filter(|s| !s.starts_with("penetration_rate="))
-    }
-    other.scheme == run.scheme
-        && other.level == run.level
-        && others(other).eq(others(run))
-        && (other.penetration_rate / run.penetration_rate - 0.5).abs() < 1e-9
+    let ratio = other.penetration_rate / run.penetration_rate;
+    same_but("penetration_rate", run, other) && (ratio - 0.5).abs() < 1e-9
 }
 
 fn change_of_load(run: &Run<Footing>, slower: &Run<Footing>) -> f64 {

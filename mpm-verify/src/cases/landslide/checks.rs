@@ -1,6 +1,7 @@
 //! Checks of the landslide. The tolerances are derived in `docs/landslide.md`.
 
 use super::*;
+use crate::cases::checks::changed;
 use crate::cases::slope::ground::{RISE, STABILITY};
 use crate::cases::slope::section::GRAVITY;
 
@@ -302,35 +303,23 @@ fn of_studies() -> Vec<Check> {
             "three dimensions: settlement of the crest of a slice at rest that of the full width, within 10⁻⁴",
         )
         .study(|records| {
-            let like = |(slice, whole): (Slope, Slope)| {
+            let like = |(slice, whole): (&Slope, &Slope)| {
                 let expected = whole.metric(SETTLEMENT_AT_REST);
                 let why = format!("{} {}: the full width", slice.scheme, slice.record.folder());
                 let value = slice.metric(SETTLEMENT_AT_REST);
                 Finding::within(SETTLEMENT_AT_REST, value, expected, GROWN_ROUNDING * expected, why)
             };
-            changed(records, "width").into_iter().map(like).collect()
+            changed(&Slope::ended(records), "width").map(like).collect()
         }),
         // Where the slope fails at once: at the paper's reduction the onset itself is at stake.
         Check::truth("time-step", "fbar-consistent: half the time step moves the toe at 2.5 s by less than a cell")
             .study(|records| {
-                let halved = |(run, _): &(Slope, Slope)| run.remedy() == FbarConsistent && run.cfl < 0.2;
-                let like = |(run, own): (Slope, Slope)| {
+                let halved = |(run, _): &(&Slope, &Slope)| run.remedy() == FbarConsistent && run.cfl < 0.2;
+                let like = |(run, own): (&Slope, &Slope)| {
                     let why = format!("{} {}: twice the step", run.scheme, run.record.folder());
                     Finding::within(RUNOUT_2_5S, run.metric(RUNOUT_2_5S), own.metric(RUNOUT_2_5S), run.h, why)
                 };
-                changed(records, "cfl").into_iter().filter(halved).map(like).collect()
+                changed(&Slope::ended(records), "cfl").filter(halved).map(like).collect()
             }),
     ]
-}
-
-/// Runs that change a parameter, each with the run that differs in nothing else.
-fn changed<'a>(records: &'a [Record], parameter: &str) -> Vec<(Slope<'a>, Slope<'a>)> {
-    let changes = |set: &&String| set.split('=').next() == Some(parameter);
-    let ended = || records.iter().filter(|r| r.status == Status::Ok);
-    let own = |run: &'a Record| {
-        let others = || run.set.iter().filter(|set| !changes(set));
-        let same = |r: &&Record| r.scheme() == run.scheme() && r.level == run.level && r.set.iter().eq(others());
-        Some((Run::of(run).ok()?, Run::of(ended().find(same)?).ok()?))
-    };
-    ended().filter(|run| run.set.iter().any(|set| changes(&set))).filter_map(own).collect()
 }

@@ -57,14 +57,12 @@ impl Cloud<'_> {
 
     /// The run of the same scheme and level with another layout and number of particles, all else the same.
     fn like<'a, 'r>(&self, runs: &'a [Cloud<'r>], layout: Layout, per_direction: usize) -> Option<&'a Cloud<'r>> {
-        let others = |run: &Cloud| -> Vec<String> {
-            let changed = |s: &&String| !s.starts_with("layout=") && !s.starts_with("ppc_per_direction=");
-            run.set.iter().filter(changed).cloned().collect()
-        };
+        let of_cloud = ["layout", "ppc_per_direction"];
         runs.iter().find(|other| {
+            let [own, others] = [self.record, other.record].map(|r| r.changed_beside(&of_cloud));
             (other.scheme, &other.level) == (self.scheme, &self.level)
                 && (other.layout, other.ppc_per_direction) == (layout, per_direction)
-                && others(other) == others(self)
+                && own.eq(others)
         })
     }
 

@@ -50,13 +50,7 @@ fn ratio(r: &Run<()>) -> f64 {
 
 /// Whether two runs differ in Poisson's ratio alone, the second at [`COMPRESSIBLE`].
 fn is_soft_twin(stiff: &Run<()>, soft: &Run<()>) -> bool {
-    fn others<'a>(r: &'a Run<()>) -> impl Iterator<Item = &'a String> {
-        r.set.iter().filter(|s| !s.starts_with("poisson_ratio="))
-    }
-    ratio(soft) == COMPRESSIBLE
-        && soft.scheme == stiff.scheme
-        && soft.level == stiff.level
-        && others(soft).eq(others(stiff))
+    ratio(soft) == COMPRESSIBLE && same_but(POISSON_RATIO.name, stiff, soft)
 }
 
 fn factor(stiff: &Run<()>, soft: &Run<()>) -> f64 {
