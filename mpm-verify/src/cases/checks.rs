@@ -51,14 +51,42 @@ pub(super) fn ladders_by<'a, K: Ord>(
     runs: impl Iterator<Item = &'a Record>,
     key: impl Fn(&'a Record) -> K,
 ) -> BTreeMap<K, Vec<&'a Record>> {
+    ladders_over(runs, key, |r| r.discretisation.h)
+}
+
+/// The same, each set with the greatest of the numbers `over` first.
+pub(super) fn ladders_over<'a, K: Ord>(
+    runs: impl Iterator<Item = &'a Record>,
+    key: impl Fn(&'a Record) -> K,
+    over: impl Fn(&Record) -> f64,
+) -> BTreeMap<K, Vec<&'a Record>> {
     let mut ladders: BTreeMap<K, Vec<&Record>> = BTreeMap::new();
     for r in runs {
         ladders.entry(key(r)).or_default().push(r);
     }
     for ladder in ladders.values_mut() {
-        ladder.sort_by(|a, b| b.discretisation.h.total_cmp(&a.discretisation.h));
+        ladder.sort_by(|a, b| over(b).total_cmp(&over(a)));
     }
     ladders
+}
+
+/// Orders by name that are to be at least the `formal` one less the slack.
+pub(super) fn at_least(orders: Vec<(String, f64)>, formal: f64, why: &str) -> Vec<Finding> {
+    orders.into_iter().map(|(name, order)| Finding::above(name, order, formal - SLACK, why)).collect()
+}
+
+/// Orders of a metric over the levels from the `coarsest` on of runs that are alike, by the coarsest of each.
+pub(super) fn orders_from<'a, 'r, P>(
+    runs: &'a [Run<'r, P>],
+    judged: impl Fn(&Run<'r, P>) -> bool,
+    coarsest: &'static str,
+    metric: Metric,
+) -> impl Iterator<Item = (&'a Run<'r, P>, Option<f64>)> {
+    runs.iter().filter(move |r| r.level == coarsest && judged(r)).filter_map(move |first| {
+        let ladder = runs.iter().filter(|r| r.scheme == first.scheme && r.set == first.set);
+        let points: Vec<_> = ladder.map(|r| (r.h, r.metric(metric))).collect();
+        (points.len() >= DECIDING).then(|| (first, fit_order(&points).map(|o| o.order)))
+    })
 }
 
 /// Observed order of a metric over the abscissa `over` of some runs, coarsest first; NaN if it follows no power law.
@@ -87,9 +115,10 @@ pub(super) fn index([coarse, middle, fine]: [f64; 3], theory: f64, resolved: boo
     Index { order, safe, bound }
 }
 
-/// Order in time of a metric by runs whose numbers of steps, by `count`, double twice to the `finest`: scheme, level and order of
-/// each set of runs.
+/// Order in time, which has this `name`, of a metric by runs whose numbers of steps, by `count`, double twice to the `finest`: name
+/// and order of each set of runs.
 pub(super) fn orders_in_time<'a>(
+    name: &str,
     runs: impl Iterator<Item = &'a Record>,
     count: impl Fn(&Record) -> f64,
     finest: u64,
@@ -102,7 +131,7 @@ pub(super) fn orders_in_time<'a>(
     let order = |((scheme, level), by): ((Scheme, &str), BTreeMap<u64, f64>)| {
         let at = |part: u64| by.get(&(finest / part)).copied();
         let order = ((at(4)? - at(2)?) / (at(2)? - at(1)?)).log2();
-        Some((format!("{} of {scheme} {level}", metric.name), order))
+        Some((format!("order in {name} of {} of {scheme} {level}", metric.name), order))
     };
     ladders.into_iter().filter_map(order).collect()
 }

@@ -3,6 +3,7 @@
 use super::reference::{Measure, Solution, StressField};
 use super::run::CREEP;
 use super::*;
+use crate::cases::checks::ladders_by;
 use Measure::{EdgeMean, MidEdge, Tip};
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
@@ -432,14 +433,11 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
 
 /// The largest ratio of one level's error to that of the level before, for each scheme.
 fn error_falls(records: &[Record]) -> Vec<Finding> {
-    let mut ladders: BTreeMap<Scheme, Vec<Run<Cook>>> = BTreeMap::new();
-    for run in Run::<Cook>::all(own_runs(records)).filter(|run| !run.is_recursive()) {
-        ladders.entry(run.scheme).or_default().push(run);
-    }
+    let own = own_runs(records).into_iter().filter(|r| r.remedy() != FbarRecursive);
+    let mut ladders = ladders_by(own, Record::scheme);
     ladders.retain(|_, ladder| ladder.len() >= 2);
-    let worst = |(scheme, mut ladder): (Scheme, Vec<Run<Cook>>)| {
-        ladder.sort_by(|a, b| b.h.total_cmp(&a.h));
-        let errors: Vec<f64> = ladder.iter().map(|run| run.falling_error().abs()).collect();
+    let worst = |(scheme, ladder): (Scheme, Vec<&Record>)| {
+        let errors: Vec<f64> = Run::<Cook>::all(ladder).map(|run| run.falling_error().abs()).collect();
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0].max(REST_NOISE));
         // A run that broke down has no error, and must not be lost among the others.
         let worst = if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(f64::NEG_INFINITY, f64::max) };

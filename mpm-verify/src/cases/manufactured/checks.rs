@@ -12,7 +12,7 @@ pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
 
 use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRESS_L2};
-use crate::cases::checks::ladders_by;
+use crate::cases::checks::{finest, ladders_by, observed_order};
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
@@ -26,8 +26,6 @@ pub(in crate::cases) type Gate = CheckOf<()>;
 const DISPERSION: f64 = 0.8;
 /// Roundings in the mass of a particle.
 const ROUNDINGS: f64 = 10.0;
-/// Levels, the finest ones, that decide an order.
-const DECIDING: usize = 3;
 
 /// A motion as its bounds see it.
 #[derive(Clone, Copy)]
@@ -211,17 +209,16 @@ struct Ladder {
 
 impl Ladder {
     fn new((metric, claims): (Metric, Claims), scheme: Scheme, runs: &[&Record]) -> Option<Self> {
-        let finest = &runs[runs.len().checked_sub(DECIDING)?..];
+        let order = observed_order(finest(runs)?, |r| r.discretisation.h, metric);
         let (first, last) = (runs.first()?, runs.last()?);
         let (name, set) = (metric.name, first.set.join(" "));
         let about = format!("{name} of {scheme} {} to {} {set}", first.level, last.level);
-        let points: Vec<(f64, f64)> = finest.iter().map(|r| (r.discretisation.h, r.metric(metric))).collect();
         let errors: Vec<f64> = runs.iter().map(|r| r.metric(metric)).collect();
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0]);
         Some(Self {
             claim: claims(&Setup::of_record(last).ok()?),
             about: about.trim_end().to_owned(),
-            order: fit_order(&points).map_or(f64::NAN, |o| o.order),
+            order,
             worst_ratio: if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(0.0, f64::max) },
         })
     }

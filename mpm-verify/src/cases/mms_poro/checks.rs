@@ -1,7 +1,7 @@
 //! The checks of the motion. The bounds are derived in `docs/mms-poro.md`.
 
 use super::*;
-use crate::cases::checks::{finest, observed_order};
+use crate::cases::checks::{finest, ladders_over, observed_order};
 use crate::cases::manufactured::checks::ladders;
 
 /// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/modes.md.
@@ -102,16 +102,12 @@ fn order(metric: Metric, runs: &[&Record]) -> (String, f64) {
 }
 
 fn orders_in_time(records: &[Record]) -> Vec<Finding> {
-    let mut ladders: BTreeMap<(Scheme, &str), Vec<&Record>> = BTreeMap::new();
-    for r in records.iter().filter(|r| is_of_rates(r) && r.changes_none_but(&["source", "steps"])) {
-        ladders.entry((r.scheme(), &r.level)).or_default().push(r);
-    }
-    let found = |((scheme, level), mut runs): ((Scheme, &str), Vec<&Record>)| {
-        let dt = |r: &Record| r.discretisation.dt;
-        runs.sort_by(|a, b| dt(b).total_cmp(&dt(a)));
+    let own = records.iter().filter(|r| is_of_rates(r) && r.changes_none_but(&["source", "steps"]));
+    let dt = |r: &Record| r.discretisation.dt;
+    let found = |((scheme, level), runs): ((Scheme, &str), Vec<&Record>)| {
         let order = observed_order(finest(&runs)?, dt, PRESSURE_L2);
         let name = format!("order in Δt of {} of {scheme} {level}", PRESSURE_L2.name);
         Some(Finding::above(name, order, 1.0 - SLACK, "backward Euler's rule"))
     };
-    ladders.into_iter().filter_map(found).collect()
+    ladders_over(own, |r| (r.scheme(), &*r.level), dt).into_iter().filter_map(found).collect()
 }

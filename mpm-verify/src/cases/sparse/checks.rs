@@ -1,6 +1,7 @@
 //! Checks of the clouds. The bounds are derived in `docs/sparse.md`.
 
 use super::*;
+use crate::cases::checks::{at_least, orders_from};
 use crate::cases::manufactured::checks::VORTEX;
 
 /// Formal order of functions that reproduce linear fields.
@@ -81,8 +82,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("lattice-second-order", "quasi-static quadratic splines on a lattice of at least four a cell: error of u over three levels of order at least 2 − 0.15")
             .study(|records| {
                 let why = "linear fields are reproduced, and the quadrature error of a lattice is of second order";
-                let found = orders(records, |c| c.is_plain() && c.layout == Layout::Lattice).into_iter();
-                found.map(|(about, order)| Finding::above(about, order, FORMAL - SLACK, why)).collect()
+                at_least(orders(records, |c| c.is_plain() && c.layout == Layout::Lattice), FORMAL, why)
             }),
         Check::truth("noise", "quasi-static quadratic splines from n16: median stress noise over that of random particles, four a cell, as their centres of mass scatter, within a quarter").study(noise),
         Check::truth("softens", "quasi-static quadratic splines, random, n16 and finer: median displacement along the exact one larger than on a lattice of as many particles").study(softens),
@@ -151,13 +151,8 @@ fn softens(records: &[Record]) -> Vec<Finding> {
 /// The orders of the error over the levels of runs that are alike, by name.
 fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f64)> {
     let runs: Vec<Cloud> = Run::all(records).collect();
-    let found = runs.iter().filter(|c| judged(c) && c.level == "n8").filter_map(|first| {
-        let ladder = runs.iter().filter(|c| c.scheme == first.scheme && c.set == first.set);
-        let points: Vec<_> = ladder.map(|c| (c.h, c.metric(ERROR_MEDIAN))).collect();
-        let order = fit_order(&points).map_or(f64::NAN, |o| o.order);
-        (points.len() >= 3).then(|| (first.about("order"), order))
-    });
-    found.collect()
+    let orders = orders_from(&runs, judged, "n8", ERROR_MEDIAN);
+    orders.map(|(first, order)| (first.about("order"), order.unwrap_or(f64::NAN))).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! The checks of the strip. Tolerances are derived in `docs/strip.md`.
 
 use super::*;
-use crate::cases::checks::{DECIDING, SAFE, finest, index, ladders_by, observed_order, orders_in_time};
+use crate::cases::checks::{DECIDING, SAFE, at_least, finest, index, ladders_by, observed_order, orders_in_time};
 
 /// Largest contribution of finite strain, over q/G.
 const FINITE: f64 = 10.0;
@@ -24,10 +24,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("pressure", "small load, two grids, three levels: rms distance of the pressure from the finite elements of order in h at least 1 − 0.15")
             .study(|records| {
                 let why = "p depends on the angle around the strip's edge: of no order within h, on an area of h²";
-                orders(records, |r| is_small(r) && is_of(r, TwoGrid), PRESSURE_ERROR)
-                    .into_iter()
-                    .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
-                    .collect()
+                at_least(orders(records, |r| is_small(r) && is_of(r, TwoGrid), PRESSURE_ERROR), 1.0, why)
             }),
         Check::known_limit("equal-order-does-not-converge", "undrained, equal order, three levels: largest distance of p from the finite elements of order in h below 1 − 0.15")
             .study(|records| {
@@ -44,19 +41,13 @@ pub(super) fn checks() -> Vec<Check> {
                 let why = "neighbours of a pressure with a bounded gradient differ by no more than O(h)";
                 let elastic = orders(records, |r| r.is_default() && is_of(r, TwoGrid), ROUGHNESS);
                 let clay = orders(records, |r| is_set(r, CLAY_BELOW) && is_of(r, TwoGrid), ROUGHNESS);
-                elastic
-                    .into_iter()
-                    .chain(clay)
-                    .map(|(name, order)| Finding::above(name, order, 1.0 - SLACK, why))
-                    .collect()
+                at_least([elastic, clay].concat(), 1.0, why)
             }),
         Check::truth("order-time", "elastic, whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| is_set_but_steps(r, ""));
-                let orders = orders_in_time(own, |r| number(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
-                let why = "backward Euler's rule, and ghost penalties on increments";
-                let found = |(name, order)| Finding::above(format!("order in Δt of {name}"), order, 1.0 - SLACK, why);
-                orders.into_iter().map(found).collect()
+                let orders = orders_in_time("Δt", own, |r| number(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
+                at_least(orders, 1.0, "backward Euler's rule, and ghost penalties on increments")
             }),
         Check::truth("uniform-clay", "Cam clay, freely drained load on the whole surface, 10, 20, 40 steps: settlement error against integrated rates of order in Δt at least 0.85")
             .study(uniform),

@@ -4,6 +4,7 @@
 
 mod run;
 
+use super::checks::{at_least, orders_from};
 use crate::cases::prelude::*;
 use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
 
@@ -197,15 +198,11 @@ fn checks() -> Vec<Check> {
 /// The order of each spline without a remedy whose faces lie on grid lines, over all levels.
 fn orders(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Beam> = Run::all(records).collect();
-    let judged = |b: &&Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
-    let found = runs.iter().filter(judged).filter(|b| b.level == "t1").filter_map(|first| {
-        let ladder = runs.iter().filter(|b| b.scheme == first.scheme && b.set == first.set);
-        let points: Vec<_> = ladder.map(|b| (b.h, b.metric(FREQUENCY_ERROR))).collect();
-        let order = (points.len() >= 3).then(|| fit_order(&points))??.order;
-        let why = "the second moment of the particles and the turning of the nodes' mass both err by h²";
-        Some(Finding::above(about("order", first), order, FORMAL - SLACK, why))
-    });
-    found.collect()
+    let judged = |b: &Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
+    let orders = orders_from(&runs, judged, "t1", FREQUENCY_ERROR);
+    let orders = orders.filter_map(|(first, order)| Some((about("order", first), order?)));
+    let why = "the second moment of the particles and the turning of the nodes' mass both err by h²";
+    at_least(orders.collect(), FORMAL, why)
 }
 
 fn tables() -> Vec<ResultTable> {

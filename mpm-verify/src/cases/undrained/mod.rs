@@ -5,7 +5,7 @@
 mod run;
 
 use super::analysis::case_of;
-use super::checks::{finest, ladders_by, observed_order};
+use super::checks::{self, finest, ladders_by, observed_order};
 use crate::cases::prelude::*;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
@@ -141,8 +141,8 @@ fn checks() -> Vec<Check> {
 
 /// The order of a metric of the square with a pressure space is at least the formal one less the slack, by order and source.
 fn at_least(records: &[Record], metric: Metric, space: SpaceName, (formal, why): (f64, &str)) -> Vec<Finding> {
-    let orders = orders(records, metric, |b| b.domain == Domain::Square && b.space() == Some(space)).into_iter();
-    orders.map(|(name, order)| Finding::above(name, order, formal - SLACK, why)).collect()
+    let orders = orders(records, metric, |b| b.domain == Domain::Square && b.space() == Some(space));
+    checks::at_least(orders, formal, why)
 }
 
 /// The order of a metric over three levels, for every scheme and every body.

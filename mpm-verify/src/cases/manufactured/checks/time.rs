@@ -2,6 +2,7 @@
 
 use super::{Gate, STALLED};
 use crate::accuracy::richardson;
+use crate::cases::checks::ladders_over;
 use crate::cases::manufactured::metrics::DISPLACEMENT_RATIO;
 use crate::cases::parameters::{CFL, LUMPED};
 use crate::cases::prelude::*;
@@ -57,17 +58,11 @@ pub(in crate::cases) fn slowed(r: &Run<()>, omega: f64) -> f64 {
 }
 
 /// Findings on the order of the three shortest steps of each family of runs, whose last is given.
-fn orders(records: &[Record], found: fn(String, &Record, f64) -> Option<Finding>) -> Vec<Finding> {
-    let mut families: BTreeMap<(&str, Scheme, Vec<&String>), Vec<&Record>> = BTreeMap::new();
-    for r in records {
-        let converges = r.remedy() != FbarRecursive;
-        if converges && r.changes_none_but(&[CFL.name, LUMPED.name]) {
-            let others = r.set.iter().filter(|set| !set.starts_with("cfl="));
-            families.entry((r.level.as_str(), r.scheme(), others.collect())).or_default().push(r);
-        }
-    }
-    let judged = families.into_iter().filter_map(|((level, scheme, others), mut family)| {
-        family.sort_by(|a, b| b.discretisation.dt.total_cmp(&a.discretisation.dt));
+fn orders<'a>(records: &'a [Record], found: fn(String, &Record, f64) -> Option<Finding>) -> Vec<Finding> {
+    let converges = |r: &&Record| r.remedy() != FbarRecursive && r.changes_none_but(&[CFL.name, LUMPED.name]);
+    let family = |r: &'a Record| (&*r.level, r.scheme(), r.changed_beside(&[CFL.name]).collect::<Vec<_>>());
+    let families = ladders_over(records.iter().filter(converges), family, |r| r.discretisation.dt);
+    let judged = families.into_iter().filter_map(|((level, scheme, others), family)| {
         let [.., a, b, c] = family[..] else { return None };
         let points = [a, b, c].map(|r| (r.discretisation.dt, r.metric(DISPLACEMENT_RATIO)));
         let order = richardson(points).map_or(f64::NAN, |r| r.order);
