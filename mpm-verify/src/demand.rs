@@ -133,6 +133,16 @@ impl<P: ParameterSet> Demand<P> {
         Self::new(quantity.into(), Bound::Within { reference, tolerance })
     }
 
+    /// The quantity is a known number within a tolerance, where the run has these.
+    pub(crate) fn known(
+        quantity: impl Into<Quantity<P>>,
+        known: impl Fn(&Run<P>) -> Option<(f64, f64)> + Copy + Held,
+    ) -> Self {
+        let of = move |part: fn((f64, f64)) -> f64| move |run: &Run<P>| known(run).map_or(f64::NAN, part);
+        Self::within(quantity, of(|(number, _)| number), of(|(_, tolerance)| tolerance))
+            .when(move |run| known(run).is_some())
+    }
+
     /// quantity ≤ bound.
     pub(crate) fn at_most(quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self::new(quantity.into(), Bound::AtMost(Box::new(bound)))

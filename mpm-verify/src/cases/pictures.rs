@@ -1,7 +1,6 @@
 //! Parts shared by the pictures of several problems: their titles, their runs and their arrangement.
 
 use crate::cases::prelude::*;
-use std::path::PathBuf;
 
 /// Whether a run came to its end and has the transfer that problems are shown with.
 pub(super) fn is_shown(record: &&Record) -> bool {
@@ -59,16 +58,6 @@ impl<'a, 'g> Exhibit<'a, 'g> {
     ) -> Option<&'static str> {
         let has_all = |level: &&str| remedies.iter().all(|&remedy| self.find(basis, remedy, level).is_some());
         levels.iter().copied().find(has_all)
-    }
-
-    /// The file of a picture.
-    pub(super) fn place(&self, name: &str) -> PathBuf {
-        self.gallery.place(&format!("{name}.png"))
-    }
-
-    /// Hangs a picture that was drawn at its [place](Self::place).
-    pub(super) fn hang(&mut self, name: &str, caption: impl Into<String>) {
-        self.gallery.hang(&format!("{name}.png"), caption);
     }
 }
 

@@ -1,9 +1,7 @@
 //! Checks of the cantilever.
 
-use super::reference::stresses;
 use super::*;
 use crate::cases::checks::quadratic;
-use crate::exact::cantilever::{Solution, Stresses};
 
 /// Largest relative error of the corner's u_y with quadratic splines, by level: the discretisation error that has been
 /// asked for, half of it from one level to the next.
@@ -41,14 +39,6 @@ impl Beam<'_> {
             && self.law != LawName::JaumannLinear
     }
 
-    fn solution(&self) -> Result<&'static Solution, String> {
-        solution(self)
-    }
-
-    fn stresses(&self) -> Result<&'static Stresses, String> {
-        stresses(self)
-    }
-
     /// Relative error of the corner's u_y that is asked for at the level.
     fn asked(&self) -> Option<f64> {
         ERRORS.iter().find(|(level, _)| *level == self.level).map(|(_, error)| *error)
@@ -60,16 +50,11 @@ pub(super) fn checks() -> Vec<Check> {
     type Demand = crate::demand::Demand<Cantilever>;
     let mass = 1000.0 * run::VOLUME;
     let stress = STRESSES.iter().map(|&(metric, at)| {
-        let known = move |b: &Beam| b.stresses().ok().and_then(|s| Some((s.at(at)?, s.uncertainty_stress)));
-        Demand::within(
-            metric,
-            move |b| known(b).map_or(f64::NAN, |(exact, _)| exact.value),
-            move |b| {
-                known(b)
-                    .map_or(f64::NAN, |(exact, uncertainty)| b.record.discretisation.h * exact.gradient + uncertainty)
-            },
-        )
-        .when(move |b| known(b).is_some())
+        Demand::known(metric, move |b| {
+            let stresses = b.stresses().ok()?;
+            let exact = stresses.at(at)?;
+            Some((exact.value, b.record.discretisation.h * exact.gradient + stresses.uncertainty_stress))
+        })
     });
     vec![
         Check::bookkeeping("mass", "mass of the beam 300 kg per metre, to rounding")

@@ -1,6 +1,5 @@
 //! Metrics of the beam's free end and of its stresses, for our runs and for other codes.
 
-use super::reference::stresses;
 use super::*;
 
 /// Particles, column by column, and probes of the stress.
@@ -44,7 +43,7 @@ impl Edge {
         let ([corner_x, mean_x], [corner_y, mean_y]) = (self.tip(ux), self.tip(uy));
         let mut values =
             vec![(CORNER_UX, corner_x), (CORNER_UY, corner_y), (EDGE_MEAN_UX, mean_x), (EDGE_MEAN_UY, mean_y)];
-        if let Ok(truth) = solution(setup) {
+        if let Ok(truth) = setup.solution() {
             let [_, corner] = truth.bottom_right;
             values.push((CORNER_ERROR, (corner_y / corner - 1.0).abs()));
             if let Some([_, mean]) = truth.right_edge_mean {
@@ -59,7 +58,7 @@ impl Edge {
         let [least, greatest] = extremes(field);
         let mut values = vec![(STRESS_MIN, least), (STRESS_MAX, greatest)];
         let mut squares = [0.0; 2];
-        let known = stresses(setup);
+        let known = setup.stresses();
         for (metric, at, probe) in &self.stress {
             let value = probe.value(field);
             values.push((*metric, value));

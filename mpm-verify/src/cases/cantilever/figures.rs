@@ -80,7 +80,7 @@ fn paths<'a>(gallery: &Gallery<'a>) -> Result<Vec<Panel<'a>>, Error> {
                 dash: Dash::None,
             });
         let setup = default.and_then(|r| Setup::<Cantilever>::of_record(r).ok());
-        if let Some(known) = setup.and_then(|c| solution(&c).ok())
+        if let Some(known) = setup.and_then(|c| c.solution().ok())
             && let Some(mean) = known.right_edge_mean
         {
             panel = panel.level(ReferenceLine::known_to("finite elements (Hencky)", mean[axis], known.uncertainty));

@@ -11,7 +11,6 @@ mod run;
 
 use crate::cases::prelude::*;
 use BasisName::Q8;
-use reference::solution;
 use run::{DEPTH, LENGTH};
 
 /// Levels with their titles.
@@ -131,13 +130,14 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
 }
 
 fn plan() -> Plan {
-    let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
-        bases.iter().map(|basis| Scheme::quasi_static(*basis, RemedyName::None)).collect()
-    };
+    let schemes = |bases: &[BasisName]| implicit(&[RuleName::QuasiStatic], bases, &[RemedyName::None]);
     let (splines, cubic, gimp, q8) = (schemes(&[Bspline2]), schemes(&[Bspline3]), schemes(&[Gimp]), schemes(&[Q8]));
     let low = schemes(&[Linear, Gimp]);
     let paper = PAPER.join(" ");
     let linear_gauss = "law=jaumann-linear points=gauss";
+    let ghosts = ["0.0005", "0.005", "0.05", "0.5", "1"].map(|f| format!("ghost={f}"));
+    let softer = ["0.1", "0.001", "0.0001", "0.00001"].map(|f| format!("{paper} stabilisation_factor={f}"));
+    let points = [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft"));
     let sizes = [("h0.1", 0.1), ("h0.05", 0.05), ("h0.025", 0.025), ("h0.0125", 0.0125)];
     Plan::of(sizes.map(|(name, h)| Level { name, h }))
         .runs(Quick, "h0.1", &splines, "")
@@ -164,28 +164,13 @@ fn plan() -> Plan {
         .runs(Nightly, "h0.05", &splines, "law=neo-hookean load_steps=10")
         .each(Nightly, "h0.05", &gimp, ["points_per_direction=2", "load_steps=5", "load_steps=80"])
         // Ghost penalties of GIMP, beside its own.
-        .each(
-            Nightly,
-            "h0.1 h0.05 h0.025",
-            &gimp,
-            ["0.0005", "0.005", "0.05", "0.5", "1"].map(|f| format!("ghost={f}")),
-        )
+        .each(Nightly, "h0.1 h0.05 h0.025", &gimp, ghosts)
         // The paper's elements, points, law and stabilisation: Figures 2 to 4.
         .runs(Nightly, "h0.1", &q8, &paper)
         .runs(Nightly, "h0.1", &q8, &format!("{linear_gauss} stabilisation=none"))
-        .each(
-            Nightly,
-            "h0.1",
-            &q8,
-            ["0.1", "0.001", "0.0001", "0.00001"].map(|f| format!("{paper} stabilisation_factor={f}")),
-        )
+        .each(Nightly, "h0.1", &q8, softer)
         .runs(Nightly, "h0.1", &q8, &format!("{paper} load_steps=40 stabilisation_factor=0.0001"))
-        .each(
-            Nightly,
-            "h0.1",
-            &q8,
-            [2, 6].map(|n| format!("{linear_gauss} points_per_direction={n} stabilisation=soft")),
-        )
+        .each(Nightly, "h0.1", &q8, points)
 }
 
 fn tables() -> Vec<ResultTable> {
@@ -196,7 +181,7 @@ fn tables() -> Vec<ResultTable> {
             return "breaks down".to_owned();
         }
         let setup = Setup::<Cantilever>::of_record(r).map_err(|e| e.to_string());
-        let exact = setup.and_then(|c| solution(&c)).map_or(f64::NAN, |s| s.bottom_right[1]);
+        let exact = setup.and_then(|c| c.solution()).map_or(f64::NAN, |s| s.bottom_right[1]);
         percent(2).text(r.metric(CORNER_UY) / exact - 1.0)
     }
     const STABILISATION: Label = ("stabilisation", |r| word(r, "stabilisation", "ghost"));

@@ -96,10 +96,10 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
     if frames.is_empty() {
         return Ok(());
     }
-    animate_fields(&runs.place("flow"), &frames, DELAY)?;
+    animate_fields(&runs.gallery.place("flow.png"), &frames, DELAY)?;
     let level = level_title(level);
-    runs.hang(
-        "flow",
+    runs.gallery.hang(
+        "flow.png",
         format!("The flow with GIMP at {level}, a third of its speed: standard MPM, the paper's F̄, ours."),
     );
     Ok(())

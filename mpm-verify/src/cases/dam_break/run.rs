@@ -5,7 +5,7 @@ use super::*;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::statistics::checkerboard;
 use mpm_core::explicit::Settings;
-use mpm_core::stage::{LocalDamping, RigidNodes, smooth_rise};
+use mpm_core::stage::{RigidNodes, smooth_rise};
 use mpm_solvers::solver;
 use nalgebra::{SMatrix, Vector3};
 
@@ -66,18 +66,14 @@ impl Dam {
 
     /// The water behind the gate: exactly at rest, or without weight yet.
     fn behind_the_gate(&self) -> Begun<2> {
-        let rise = if self.is_staged() { RISE } else { 0.0 };
+        let (rise, damping) = if self.is_staged() { (RISE, DAMPING) } else { (0.0, 0.0) };
         let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
-        let mut settings = self.settings()?;
-        if self.is_staged() {
-            settings = settings.filter_forces(LocalDamping::new(DAMPING)?);
-        }
-        solver(self.setup.scheme, scene, settings)
+        solver(self.setup.scheme, scene, self.settings(damping)?)
     }
 
     /// The same water without a gate.
     pub(super) fn released(&self) -> Begun<2> {
-        solver(self.setup.scheme, self.tank(0.0)?, self.settings()?)
+        solver(self.setup.scheme, self.tank(0.0)?, self.settings(0.0)?)
     }
 
     /// The water in the tank, under gravity that rises over `rise` (s).
@@ -93,9 +89,9 @@ impl Dam {
         })))
     }
 
-    fn settings(&self) -> Result<Settings<2>, Fault> {
+    fn settings(&self, damping: f64) -> Result<Settings<2>, Fault> {
         let flip = (-self.setup.pic_rate * self.dt).exp();
-        Ok(self.setup.settings(self.dt, 0.0)?.transfer(Flip::new(flip)?))
+        Ok(self.setup.settings(self.dt, damping)?.transfer(Flip::new(flip)?))
     }
 
     fn particles(&self) -> Result<Particles<2>, Fault> {

@@ -30,9 +30,6 @@ const STRESS_RANGE: f64 = 100.0;
 choices! {
     /// Time step over the paper's.
     enum StepFactor { One = "1", Ten = "10", Hundred = "100" }
-}
-
-choices! {
     /// How the discs meet: on the nodes that both see, or as bodies that slide on each other.
     enum Contact { Grid = "grid", Bodies = "bodies" }
 }
@@ -160,6 +157,7 @@ fn plan() -> Plan {
     let blended = [Linear, Gimp, Bspline2].map(|b| Scheme::flip(b, none));
     let slow = |rules: &[RuleName]| implicit(rules, &[Gimp, Linear, Bspline2], &[none]);
     let (both, midpoint) = (slow(&[Midpoint, Newmark]), slow(&[Midpoint]));
+    let bodies = ["", " offset=0.1", " offset=0.4", " offset=0.5"].map(|set| format!("contact=bodies{set}"));
     // Offsets: oblique 0.1 m; grazing 0.4 m, where rims would just touch; missing 0.65 m, beyond the reach of all functions.
     Plan::of([("h0.05", 0.05), ("h0.025", 0.025)].map(|(name, h)| Level { name, h }))
         .runs(Pr, "h0.05", &explicit, "")
@@ -182,12 +180,7 @@ fn plan() -> Plan {
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")))
         .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0", "flip=0.99 offset=0.1", "flip=0 offset=0.1"])
-        .each(
-            Nightly,
-            "h0.05",
-            &explicit,
-            ["", " offset=0.1", " offset=0.4", " offset=0.5"].map(|set| format!("contact=bodies{set}")),
-        )
+        .each(Nightly, "h0.05", &explicit, bodies)
 }
 
 fn sketch() -> Sketch {

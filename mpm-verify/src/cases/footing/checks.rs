@@ -245,13 +245,9 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .unless(|c| c.other_points())
             .unless(|c| c.has_room().err())
             .each(MEAN_STRESSES.iter().map(|&(metric, point)| {
-                let known = move || mean_stress_at(point);
-                Demand::within(
-                    metric,
-                    move |_| known().map_or(f64::NAN, |k| k.value),
-                    move |c| GRADIENT * c.h + known().map_or(f64::NAN, |k| k.uncertainty),
-                )
-                .when(move |_| known().is_some())
+                Demand::known(metric, move |c| {
+                    mean_stress_at(point).map(|known| (known.value, GRADIENT * c.h + known.uncertainty))
+                })
             }))
             .because("finite elements of vanishing size"),
         Check::truth("fem-plateau", "limit load over B that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")

@@ -2,8 +2,9 @@
 
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::*;
-use crate::cases::observe::mean_stress;
+use crate::cases::observe::{mean_stress, places};
 use crate::statistics::{checkerboard, oscillation};
+use mpm_core::implicit::GHOST;
 use mpm_core::stage::{RigidNodes, smooth_stroke};
 
 /// Width B of the footing (m); its right half is simulated.
@@ -147,8 +148,7 @@ pub(super) struct Seen {
 impl Seen {
     /// Displacement (m) of every particle over the plateau, in seeding order; none before it begins.
     fn flow(&self, run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
-        let p = run.particles();
-        let now = p.seeded(|k| p.position[k]);
+        let now = places(run);
         let displacement = |(k, x): (usize, &[f64; 2])| {
             let before = self.before_plateau.get(k).unwrap_or(x);
             [x[0] - before[0], x[1] - before[1]]
@@ -247,11 +247,7 @@ impl Problem<2> for Pressing {
             }
         };
         match setup.implicit_settings(self.pace.dt) {
-            Some(own) => mpm_solvers::implicit(
-                setup.scheme,
-                scene,
-                own.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST)),
-            ),
+            Some(own) => mpm_solvers::implicit(setup.scheme, scene, own.stabilised(Stabilisation::Ghost(GHOST))),
             None => setup.explicit(scene, self.pace.dt, setup.damping),
         }
     }
@@ -275,8 +271,7 @@ impl Problem<2> for Pressing {
         seen.rows.push(load);
         let stroke = self.pace.stroke(phase.run.time());
         if seen.before_plateau.is_empty() && stroke >= plateau(self.setup.penetration) {
-            let p = phase.run.particles();
-            seen.before_plateau = p.seeded(|k| p.position[k]);
+            seen.before_plateau = places(phase.run.as_ref());
         }
         let totals = phase.run.totals();
         Ok(row! {

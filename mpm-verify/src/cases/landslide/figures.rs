@@ -220,7 +220,7 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
             continue;
         }
         let panels = frames.iter().map(|shown| shown.iter().collect::<Vec<_>>());
-        let path = runs.place("slide");
+        let path = runs.gallery.place("slide.png");
         if frames.iter().flatten().all(Shown::is_solid) {
             let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
             animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
@@ -229,7 +229,7 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
             animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
         }
         let (level, label) = (level_title(level), field.label);
-        runs.hang("slide", format!("The slide with GIMP, {level}: {label}."));
+        runs.gallery.hang("slide.png", format!("The slide with GIMP, {level}: {label}."));
         break;
     }
     Ok(())

@@ -236,7 +236,7 @@ impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.scenario.discretisation::<D>(self.timing.dt)
+        self.scenario.setup.regular(D, self.timing.dt)
     }
 
     fn begin(&self, _: &Seen) -> Begun<D> {

@@ -87,12 +87,6 @@ impl<K: Known> Scenario<K> {
         if self.setup.is_explicit() { 0.5 * dt } else { 0.0 }
     }
 
-    /// The discretisation in `D` dimensions with steps of `dt` (s).
-    pub(in crate::cases) fn discretisation<const D: usize>(&self, dt: f64) -> Discretisation {
-        let ppc = self.number(PPC_PER_DIRECTION).powi(D as i32);
-        self.setup.discretisation(D, ppc as usize, dt)
-    }
-
     fn medium(&self) -> SharedLaw {
         let Material { mu, lambda, .. } = self.solution.material();
         if K::FLUID {
@@ -104,7 +98,19 @@ impl<K: Known> Scenario<K> {
 
     /// The simulation at its start, with steps of `dt` (s).
     pub(super) fn begin<const D: usize>(&self, dt: f64) -> Begun<D> {
-        solved(&self.setup, self.scene(self.medium(), dt)?, dt)
+        let (setup, scene) = (&self.setup, self.scene(self.medium(), dt)?);
+        if let Some(settings) = setup.implicit_settings(dt) {
+            return mpm_solvers::implicit(setup.scheme, scene, settings);
+        }
+        let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
+            FbarConsistent => {
+                let remedy = Fbar::new(Form::Consistent).relaxing(self.number(RELAXATION));
+                Box::new(remedy.holding(self.number(HOLD), scene.bodies.wave_moduli()[0])?)
+            }
+            other => other.build(),
+        };
+        let settings = setup.settings(dt, 0.0)?.transfer(Flip::new(self.number(FLIP))?);
+        mpm_solvers::solver(setup.scheme, scene, settings.remedy(remedy))
     }
 
     /// The body at its start, with what holds and drives it.
@@ -160,7 +166,7 @@ impl<K: Known> Scenario<K> {
     /// Particles on a lattice over the whole body, in the state of time zero; velocities are those of when they live.
     fn seed<const D: usize>(&self, dt: f64) -> Result<Particles<D>, Fault> {
         let solution = self.solution.as_ref();
-        let spacing = self.setup.h / self.number(PPC_PER_DIRECTION);
+        let spacing = self.setup.pitch();
         let extent = solution.extent();
         let counts: [usize; D] = std::array::from_fn(|a| cells(extent[a], spacing));
         let places = by_columns(counts, spacing).map(|x| std::array::from_fn(|a| extent[a][0] + x[a]));
@@ -192,23 +198,6 @@ pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
     let remedy = remedy_cost(spec, [1.0, 1.5, 1.5, 1.5, 3.0]);
     let solver = if matches!(spec.scheme, Scheme::Explicit(_)) { 1.0 } else { NEWTON };
     particle_steps().unwrap_or(0.0) * (remedy * solver) / STEPS_PER_COST
-}
-
-/// The solver of a scene, of steps `dt` (s).
-fn solved<const D: usize, P: ParameterSet>(setup: &Setup<P>, scene: Scene<D>, dt: f64) -> Begun<D> {
-    if let Some(settings) = setup.implicit_settings(dt) {
-        return mpm_solvers::implicit(setup.scheme, scene, settings);
-    }
-    let number = |p| setup.values.number(p);
-    let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
-        FbarConsistent => {
-            let remedy = Fbar::new(Form::Consistent).relaxing(number(RELAXATION));
-            Box::new(remedy.holding(number(HOLD), scene.bodies.wave_moduli()[0])?)
-        }
-        other => other.build(),
-    };
-    let settings = setup.settings(dt, 0.0)?;
-    mpm_solvers::solver(setup.scheme, scene, settings.transfer(Flip::new(number(FLIP))?).remedy(remedy))
 }
 
 /// The body force that the motion needs.

@@ -79,12 +79,8 @@ pub(super) fn case() -> Case {
 }
 
 fn plan() -> Plan {
-    let schemes = |bases: &[BasisName]| -> Vec<Scheme> {
-        let of = |&b: &_| [RemedyName::None, FbarConsistent].map(|r| Scheme::quasi_static(b, r));
-        bases.iter().flat_map(of).collect()
-    };
-    let all = schemes(&[Linear, Gimp, Bspline2, Bspline3]);
-    let few = schemes(&SMOOTH);
+    let remedies = [RemedyName::None, FbarConsistent];
+    let [all, few] = [&BASES[..], &SMOOTH].map(|bases| implicit(&[RuleName::QuasiStatic], bases, &remedies));
     let averaged = &few[3..];
     let near = ["poisson_ratio=0.49999", "poisson_ratio=0.499999", "poisson_ratio=0.4999999"];
     Plan::of(metre_levels()[..3].to_vec())

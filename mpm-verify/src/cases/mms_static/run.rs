@@ -82,7 +82,7 @@ impl<const D: usize> Problem<D> for Slow<D> {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.0.discretisation::<D>(self.dt())
+        self.0.setup.regular(D, self.dt())
     }
 
     fn begin(&self, _: &u64) -> Begun<D> {

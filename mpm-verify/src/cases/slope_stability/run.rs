@@ -187,11 +187,8 @@ impl Problem<2> for Trials {
         let strength = Strength::perfect(setup.strength / seen.factor.unwrap_or(1.0))?;
         if let Some(settings) = setup.implicit_settings(setup.look()) {
             let scene = ground.scene(setup, strength, 1.0)?;
-            return mpm_solvers::implicit(
-                setup.scheme,
-                scene,
-                settings.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST)),
-            );
+            let settings = settings.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST));
+            return mpm_solvers::implicit(setup.scheme, scene, settings);
         }
         let (rise, damping) = if seen.factor.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, TRIAL_DAMPING) };
         let scene = ground.scene(setup, strength, rise)?;

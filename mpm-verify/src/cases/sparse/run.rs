@@ -69,14 +69,8 @@ impl Analysis for Clouds {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let full = self.per_direction().pow(2) as u32;
-        Discretisation {
-            dim: 2,
-            h: self.setup.h,
-            ppc: full - u32::from(self.setup.layout == Layout::Holes),
-            dt: self.dt,
-            wall: "open-knot".to_owned(),
-        }
+        let full = self.setup.regular(2, self.dt);
+        Discretisation { ppc: full.ppc - u32::from(self.setup.layout == Layout::Holes), ..full }
     }
 
     fn rows(&self) -> usize {

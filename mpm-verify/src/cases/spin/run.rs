@@ -60,7 +60,7 @@ impl Problem<2> for Spin {
     }
 
     fn discretisation(&self) -> Discretisation {
-        self.setup.discretisation(2, self.setup.ppc_per_direction.pow(2), self.dt)
+        self.setup.regular(2, self.dt)
     }
 
     /// Velocities live half a step before positions.

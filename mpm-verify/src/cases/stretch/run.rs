@@ -193,8 +193,7 @@ impl<const D: usize> Problem<D> for Stretching {
     }
 
     fn discretisation(&self) -> Discretisation {
-        let ppc = self.setup.ppc_per_direction.pow(D as u32);
-        Discretisation { wall: "none".to_owned(), ..self.setup.discretisation(D, ppc, self.dt) }
+        Discretisation { wall: "none".to_owned(), ..self.setup.regular(D, self.dt) }
     }
 
     fn begin(&self, _: &Observed) -> Begun<D> {
