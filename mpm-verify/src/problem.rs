@@ -281,6 +281,11 @@ impl<'a, const D: usize> Columns<'a, D> {
         self.axes(["reference_x", "reference_y", "reference_z"], "m", |p, k| p.reference[k])
     }
 
+    /// Displacements (m).
+    pub(crate) fn displacements(self) -> Self {
+        self.axes(["ux", "uy", "uz"], "m", |p, k| std::array::from_fn(|a| p.position[k][a] - p.reference[k][a]))
+    }
+
     /// Velocities (m/s).
     pub(crate) fn velocities(self) -> Self {
         self.axes(["vx", "vy", "vz"], "m/s", |p, k| p.velocity[k])

@@ -2,6 +2,7 @@
 
 use super::parameters as common;
 use crate::prelude::*;
+use nalgebra::SMatrix;
 
 impl<P: ParameterSet> Setup<P> {
     /// Distance of particles (m), by the parameter `ppc_per_direction`.
@@ -43,17 +44,25 @@ impl<P: ParameterSet> Setup<P> {
     }
 }
 
-/// Places (m) of a lattice of `counts` places along the axes, `spacing` (m) apart, the first at half of it; the first axis
-/// runs fastest.
-pub(super) fn by_rows<const D: usize>(counts: [usize; D], spacing: f64) -> impl Iterator<Item = [f64; D]> {
-    let place = move |mut k: usize| {
-        counts.map(|count| {
-            let at = k % count;
-            k /= count;
-            (at as f64 + 0.5) * spacing
+/// Places (m) of a lattice with these coordinates (m) along the axes; the first axis runs fastest.
+pub(super) fn lattice<const D: usize>(axes: [Vec<f64>; D]) -> impl Iterator<Item = [f64; D]> {
+    (0..axes.iter().map(Vec::len).product()).map(move |mut k| {
+        axes.each_ref().map(|axis| {
+            let x = axis[k % axis.len()];
+            k /= axis.len();
+            x
         })
-    };
-    (0..counts.iter().product()).map(place)
+    })
+}
+
+/// Coordinates (m) of the middles of `count` parts of this size (m), from zero on.
+pub(super) fn middles(count: usize, size: f64) -> Vec<f64> {
+    (0..count).map(|k| (k as f64 + 0.5) * size).collect()
+}
+
+/// The lattice of `counts` places along the axes, `spacing` (m) apart, the first at half of it.
+pub(super) fn by_rows<const D: usize>(counts: [usize; D], spacing: f64) -> impl Iterator<Item = [f64; D]> {
+    lattice(counts.map(|count| middles(count, spacing)))
 }
 
 /// The same with the last axis running fastest.
@@ -63,6 +72,13 @@ pub(super) fn by_columns<const D: usize>(mut counts: [usize; D], spacing: f64) -
         x.reverse();
         x
     })
+}
+
+/// A stretch along the first axis.
+pub(super) fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
+    let mut f = SMatrix::identity();
+    f[(0, 0)] = stretch;
+    f
 }
 
 /// A wall on which material sticks.

@@ -182,11 +182,9 @@ impl Problem<2> for Bending {
     }
 
     fn particles<'a>(&self, _: &Steps, columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        let moved = |p: &Particles<2>, k: usize, axis: usize| p.position[k][axis] - p.reference[k][axis];
         columns
             .references()
-            .each("ux", "m", |p, k| moved(p, k, 0))
-            .each("uy", "m", |p, k| moved(p, k, 1))
+            .displacements()
             .each("stress_xx", "Pa", |p, k| p.stress[k].xx)
             .each("stress_yy", "Pa", |p, k| p.stress[k].yy)
             .each("stress_xy", "Pa", |p, k| p.stress[k].xy)

@@ -353,8 +353,7 @@ impl Problem<2> for Membrane {
         let (mean_stress, averaged) = mean_stress(columns.run());
         columns
             .references()
-            .each("ux", "m", |p, k| p.position[k][0] - p.reference[k][0])
-            .each("uy", "m", |p, k| p.position[k][1] - p.reference[k][1])
+            .displacements()
             .seeded("mean_stress", "Pa", mean_stress)
             .seeded("averaged_mean_stress", "Pa", averaged)
             .jacobian()

@@ -1,13 +1,13 @@
 //! Scene and observations of the lattice: a row for every step that is tried.
 
 use super::*;
+use crate::cases::build::{lattice, stretched};
 use crate::cases::noise::noise;
 use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
 use mpm_core::explicit::Settings;
 use mpm_core::material::Viscous;
 use mpm_solvers::solver;
-use nalgebra::SMatrix;
 
 /// Cells of a period, or of the body where it has a free end; cells beside it there.
 pub(super) const PERIOD: usize = 6;
@@ -89,22 +89,12 @@ impl<const D: usize> Trials<D> {
     fn trial(&self, cfl: f64) -> Begun<D> {
         let h = self.setup.h;
         let stretch = self.setup.stretch;
-        let axes: Vec<Vec<f64>> = (0..D)
-            .map(|axis| {
-                let shift = if axis == 0 && self.is_cut() { self.shift() } else { 0.0 };
-                let places = self.places(axis);
-                (0..PERIOD).flat_map(|c| places.iter().map(move |x| (x + c as f64 + shift) * h)).collect()
-            })
-            .collect();
-        let counts = axes.iter().map(Vec::len);
-        let places = (0..counts.product()).map(|mut k: usize| {
-            std::array::from_fn(|a| {
-                let n = axes[a].len();
-                let x = axes[a][k % n];
-                k /= n;
-                x
-            })
-        });
+        let along = |axis: usize| {
+            let shift = if axis == 0 && self.is_cut() { self.shift() } else { 0.0 };
+            let places = self.places(axis);
+            (0..PERIOD).flat_map(|c| places.iter().map(move |x| (x + c as f64 + shift) * h)).collect()
+        };
+        let places = lattice(std::array::from_fn(along));
         let size = 2.0 * self.half_size() * h;
         let volume = size.powi(D as i32) / stretch;
         let places = self.setup.start_at(places);
@@ -149,13 +139,6 @@ impl<const D: usize> Trials<D> {
             viscosity: self.setup.linear_viscosity,
         }
     }
-}
-
-/// A stretch along the first axis.
-fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
-    let mut f = SMatrix::identity();
-    f[(0, 0)] = stretch;
-    f
 }
 
 impl<const D: usize> Problem<D> for Trials<D> {

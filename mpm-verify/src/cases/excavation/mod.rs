@@ -306,27 +306,25 @@ fn equilibria() -> ResultTable {
 
 /// Collapses after the excavation.
 fn collapses() -> ResultTable {
-    let columns = [
-        Column::text("stands", stands),
-        Column::metric("run-out (m)", RUNOUT_END, fixed(3)),
-        Column::metric("crest sinks (m)", CREST_DROP, fixed(3)),
-        Column::metric("band (m)", BAND_WIDTH, fixed(3)),
-        Column::metric("E_kin at the end", KINETIC_END, share(2)),
-        Column::cpu(),
-    ];
-    ResultTable::new("excavation-collapses", |r| !is_static(r), &[SCHEME, CHANGED, CELLS], columns)
+    ResultTable::of("excavation-collapses", |r| !is_static(r))
+        .by(&[SCHEME, CHANGED, CELLS])
+        .text("stands", stands)
+        .metric("run-out (m)", RUNOUT_END, fixed(3))
+        .metric("crest sinks (m)", CREST_DROP, fixed(3))
+        .metric("band (m)", BAND_WIDTH, fixed(3))
+        .metric("E_kin at the end", KINETIC_END, share(2))
+        .cpu()
 }
 
 /// Errors of what is conserved.
 fn balances() -> ResultTable {
-    let columns = [
-        Column::metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT),
-        Column::metric("reaction off by", REACTION_ERROR, SHORT),
-        Column::metric("energy off by", BALANCE_ERROR, SHORT),
-        Column::metric("gained", ENERGY_GAIN, SHORT),
-        Column::metric("momentum off by", MOMENTUM_ERROR, SHORT),
-    ];
-    ResultTable::new("excavation-balances", |r| !is_static(r) && r.level == "h0.05", &[SCHEME, CHANGED], columns)
+    ResultTable::of("excavation-balances", |r| !is_static(r) && r.level == "h0.05")
+        .by(&[SCHEME, CHANGED])
+        .metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT)
+        .metric("reaction off by", REACTION_ERROR, SHORT)
+        .metric("energy off by", BALANCE_ERROR, SHORT)
+        .metric("gained", ENERGY_GAIN, SHORT)
+        .metric("momentum off by", MOMENTUM_ERROR, SHORT)
 }
 
 /// Plastic strain of the finest run of the midpoint rule with the default parameters, beside Figure 9 of the paper.

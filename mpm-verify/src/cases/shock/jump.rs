@@ -1,8 +1,8 @@
 //! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
 
+use crate::cases::build::stretched;
 use crate::cases::prelude::*;
 use crate::statistics::root;
-use nalgebra::Matrix3;
 
 /// Slices of a front that are summed.
 const SLICES: usize = 1000;
@@ -22,12 +22,6 @@ pub(super) struct Jump {
     pub(super) bound: f64,
     law: NeoHookean,
     density: f64,
-}
-
-fn stretched(stretch: f64) -> Matrix3<f64> {
-    let mut f = Matrix3::identity();
-    f[(0, 0)] = stretch;
-    f
 }
 
 /// P = σ in uniaxial strain (Pa).

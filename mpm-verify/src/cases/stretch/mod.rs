@@ -174,14 +174,6 @@ fn checks() -> Vec<Check> {
 }
 
 fn tables() -> Vec<ResultTable> {
-    let pulled = [
-        Column::metric("tears at", TEAR_STRETCH, fixed(2)),
-        Column::metric("stops at", STOPPED_STRETCH, fixed(2)),
-        Column::metric("holds at least to", UNSTABLE_STRETCH, fixed(2)),
-        Column::metric("neighbours part at", PREDICTED_TEAR_STRETCH, fixed(2)),
-        Column::metric("noise before", STRESS_NOISE, share(1)),
-        Column::metric("predicted", PREDICTED_NOISE, share(1)),
-    ];
     let crushed = || {
         [
             Column::metric("mean stress kept", STRESS_KEPT, share(1)),
@@ -190,16 +182,23 @@ fn tables() -> Vec<ResultTable> {
             Column::metric("stops at", STOPPED_STRETCH, fixed(2)),
         ]
     };
-    let stops = [
-        Column::metric("stops at", STOPPED_STRETCH, fixed(3)),
-        Column::metric("predicted", PREDICTED_STOP_STRETCH, fixed(3)),
-    ];
     let long = |r: &Record| Setup::<Stretch>::number_of(r, |b| b.cfl) > 0.1;
     let set: Label = ("set", |r| r.set.join(", "));
     vec![
-        ResultTable::new("stretch", Record::is_default, &[SCHEME], pulled),
+        ResultTable::of("stretch", Record::is_default)
+            .by(&[SCHEME])
+            .metric("tears at", TEAR_STRETCH, fixed(2))
+            .metric("stops at", STOPPED_STRETCH, fixed(2))
+            .metric("holds at least to", UNSTABLE_STRETCH, fixed(2))
+            .metric("neighbours part at", PREDICTED_TEAR_STRETCH, fixed(2))
+            .metric("noise before", STRESS_NOISE, share(1))
+            .metric("predicted", PREDICTED_NOISE, share(1)),
         ResultTable::new("crush", |r| r.set == ["end=0.05"], &[SCHEME], crushed()),
         ResultTable::new("crush-plane", |r| r.set.join(" ") == PLANE, &[SCHEME], crushed()),
-        ResultTable::new("stretch-steps", long, &[set, SCHEME], stops),
+        ResultTable::of("stretch-steps", long).by(&[set, SCHEME]).metric("stops at", STOPPED_STRETCH, fixed(3)).metric(
+            "predicted",
+            PREDICTED_STOP_STRETCH,
+            fixed(3),
+        ),
     ]
 }

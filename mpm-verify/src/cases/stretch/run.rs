@@ -1,6 +1,7 @@
 //! Scene, observations and predictions of the body.
 
 use super::*;
+use crate::cases::build::lattice;
 use crate::cases::observe::finds_equilibrium;
 use crate::exact::stretched_lattice::Lattice;
 use mpm_core::explicit::Settings;
@@ -199,11 +200,8 @@ impl<const D: usize> Problem<D> for Stretching {
     fn begin(&self, _: &Observed) -> Begun<D> {
         let h = self.setup.h;
         let size = h / self.setup.ppc_per_direction as f64;
-        let along = self.places();
-        let place = |k: usize, a: usize| along[k / along.len().pow(a as u32) % along.len()] * h;
-        let count = along.len().pow(D as u32);
-        let places = (0..count).map(|k| std::array::from_fn(|a| place(k, a)));
-        let places = self.setup.start_at(places);
+        let along = |_| self.places().iter().map(|x| x * h).collect();
+        let places = self.setup.start_at(lattice(std::array::from_fn(along)));
         let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = x.map(|x| self.rate * x);

@@ -1,6 +1,7 @@
 //! Scene and observations of the body, twice in a cell.
 
 use super::*;
+use crate::cases::build::{lattice, middles};
 use crate::exact::lattice::{force, symbol, transform};
 use nalgebra::{Matrix2, Matrix3};
 
@@ -96,11 +97,7 @@ impl Problem<2> for Translation {
         let grid = Grid::new(h, [Axis::periodic(0.0, PERIOD), Axis::periodic(0.0, ACROSS)])?;
         let counts = [self.setup.particles, ACROSS * across];
         let size = [PERIOD as f64 * h / counts[0] as f64, h / across as f64];
-        let place = |k: usize| {
-            let at = [k % counts[0], k / counts[0]];
-            std::array::from_fn(|a| (at[a] as f64 + 0.5) * size[a])
-        };
-        let places = (0..counts[0] * counts[1]).map(place);
+        let places = lattice([0, 1].map(|a| middles(counts[a], size[a])));
         let volume = size[0] * size[1] / (stretch * stretch);
         let mut particles = Particles::new(self.setup.start_at(places), volume, DENSITY, size.map(|s| 0.5 * s))?
             .deformed(|x| (*x, Matrix2::identity() * stretch));
