@@ -32,6 +32,7 @@ pub(super) fn case() -> Case {
     let mut checks = of_motion(claim, Wave::pressure(|_| PI));
     checks.push(stress_order(claim));
     checks.extend(order_in_time());
+    let large = ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE));
     known_case::<2, WallPressure>([
         "mms-wall-pressure",
         "Pressure gradient at walls",
@@ -48,10 +49,7 @@ pub(super) fn case() -> Case {
     .table(tables::orders("mms-wall-pressure-wall-line", |r| {
         tables::changes(r, "wall=wall-line") && is_flip(r)
     }))
-    .table(tables::errors(
-        "mms-wall-pressure-large",
-        ["n8", "n16", "n32", "n64"].map(|n| (n, n, LARGE)),
-    ))
+    .table(tables::errors("mms-wall-pressure-large", large))
 }
 
 fn plan() -> Plan {

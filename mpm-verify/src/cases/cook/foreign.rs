@@ -22,6 +22,7 @@ const LOADING: f64 = 0.25;
 
 pub(in crate::cases) fn foreign() -> Foreign {
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    let of_stress = [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses);
     let errors = [FEM_MID_EDGE_ERROR, FEM_EDGE_MEAN_ERROR, FEM_TIP_ERROR];
     let of_edge = [MID_EDGE_UY, EDGE_MEAN_UY, TIP_UY, TIP_UY_NEAREST, TIP_UX].into_iter().chain(errors);
     let groups = vec![
@@ -29,11 +30,9 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let moved = [&MOVED_X, &MOVED_Y].map(|u| given.column(u));
             Ok(probes(given)?.of_displacement(moved, &given.setup::<Cook>()?))
         }),
-        Group::new(
-            &[START_X, START_Y, MEAN_STRESS],
-            [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses),
-            |given| Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?)),
-        ),
+        Group::new(&[START_X, START_Y, MEAN_STRESS], of_stress, |given| {
+            Ok(probes(given)?.of_stress(given.column(&MEAN_STRESS), &given.setup::<Cook>()?))
+        }),
         Group::new(&[REACTION], [REACTION_UY], |given| {
             Ok(vec![(REACTION_UY, given.column(&REACTION).last().copied().unwrap_or(f64::NAN))])
         }),

@@ -89,6 +89,7 @@ metrics! {
 
 pub(super) fn case() -> Case {
     let metrics: Vec<Metric> = OWN.iter().copied().chain(MEAN_STRESSES.iter().map(|(metric, _)| *metric)).collect();
+    let stress = ["mean_stress", "mean normal stress at rest (Pa)"];
     Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
         .planned(plan())
         .described("A tapered membrane of nearly incompressible neo-Hookean rubber (plane strain, ν = 0.499), \
@@ -119,11 +120,7 @@ pub(super) fn case() -> Case {
         .quantity(value(TIP_UX, "tip u_x (m)"))
         .sweep(Sweep::of(POISSON_RATIO, "0.5 − ν").over(|ratio| 0.5 - ratio).logarithmic())
         .watched(&["tip_uy", "log_jacobian_gap_rms"])
-        .field(FieldView::at_end(
-            ["mean_stress", "mean normal stress at rest (Pa)"],
-            (-1.0, 1.0),
-            [(0.0, 48.0), (0.0, 60.0)],
-        ))
+        .field(FieldView::at_end(stress, (-1.0, 1.0), [(0.0, 48.0), (0.0, 60.0)]))
         .sketch(sketch())
         .cost(|spec| remedy_cost(spec, [1.0, 2.5, 1.5, 1.5, 3.0]) / spec.level.h.powi(3))
         .own_runs(own_runs)

@@ -16,6 +16,7 @@ const BASE: Asked = Asked::series("base_force", "N/m", "downward force of the gr
 pub(in crate::cases) fn foreign() -> Foreign {
     let curve = CURVE.iter().map(|(metric, _)| *metric);
     let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
+    let of_stress = [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(stresses);
     let of_load = [NC_B, NC_B_PLUS_H, NC_EFFECTIVE, PRANDTL_ERROR, NC_PEAK, PLATEAU_RISE, ELASTIC_SLOPE];
     let groups = vec![
         Group::new(&[PENETRATED, FORCE], of_load.into_iter().chain(curve), |given| of_rows(given, |c| c.metrics())),
@@ -26,14 +27,10 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let [start, flow] = [[&START_X, &START_Y], [&FLOW_X, &FLOW_Y]].map(|columns| given.points(columns));
             Ok(given.setup::<Footing>()?.of_surface(&start, &flow))
         }),
-        Group::new(
-            &[START_X, START_Y, MEAN_STRESS],
-            [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(stresses),
-            |given| {
-                let start = given.points([&START_X, &START_Y]);
-                Ok(given.setup::<Footing>()?.of_stress(&start, given.column(&MEAN_STRESS)))
-            },
-        ),
+        Group::new(&[START_X, START_Y, MEAN_STRESS], of_stress, |given| {
+            let start = given.points([&START_X, &START_Y]);
+            Ok(given.setup::<Footing>()?.of_stress(&start, given.column(&MEAN_STRESS)))
+        }),
     ];
     Foreign {
         judged_as: |basis| Scheme::flip(basis, FbarConsistent),

@@ -174,13 +174,9 @@ fn tables() -> Vec<ResultTable> {
         let text = |r: &Record| SHORT.text(r.time.cpu_s);
         Column::text(format!("CPU (s), {title}"), text).of(move |r| r.level == level)
     });
+    let is_main = |r: &Record| r.is_default() && is_flip(r) && r.level == "h0.2";
     vec![
-        ResultTable::by_remedy(
-            "slope",
-            &REMEDIES,
-            |r| r.is_default() && is_flip(r) && r.level == "h0.2",
-            |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR)),
-        ),
+        ResultTable::by_remedy("slope", &REMEDIES, is_main, |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR))),
         ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level.into_iter().chain(cpu)),
     ]
 }
