@@ -80,7 +80,10 @@ impl Saved {
     /// # Errors
     /// A value that has no bytes, such as a sequence of unknown length.
     pub fn of(value: &impl Serialize) -> Result<Self, MemoryError> {
-        postcard::to_stdvec(value).map(Self).map_err(MemoryError::Write)
+        // Counted first: a vector that grows holds up to three times as much while it does.
+        let size = postcard::experimental::serialized_size(value);
+        let bytes = size.and_then(|size| postcard::to_extend(value, Vec::with_capacity(size)));
+        bytes.map(Self).map_err(MemoryError::Write)
     }
 
     /// From bytes that were [saved](Self::bytes).
