@@ -24,7 +24,7 @@ pub(super) struct Problem {
     /// Parameters changed from the case's own.
     #[serde(default)]
     set: Vec<String>,
-    /// Of the explicit runs.
+    /// Scheme of the explicit runs.
     scheme: Scheme,
     /// Error in which the runs are equal: name, metric.
     pub(super) motion: (String, String),
