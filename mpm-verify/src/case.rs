@@ -86,6 +86,23 @@ impl FieldView {
 /// Begins a run of a case.
 pub type Begin = Box<dyn Fn(&RunSpec, &Parameters) -> Result<Box<dyn Job>, Error> + Send + Sync>;
 
+/// A function of the time (s) since a run began.
+pub type Timed<T> = Box<dyn Fn(f64) -> T + Send + Sync>;
+
+/// Title, lines and input that pictures and page of a scene of one's own show beside its particles.
+pub struct Scenery {
+    /// Time at its end (s).
+    pub end: f64,
+    /// The axis that points up.
+    pub up: usize,
+    /// Title of its pictures.
+    pub heading: Timed<String>,
+    /// Lines around its particles.
+    pub around: Timed<Vec<Line>>,
+    /// Its file with every key that it could have left out.
+    pub filled: String,
+}
+
 /// A problem: data, how a run of it begins, and what is checked.
 pub struct Case {
     /// Name on the command line.
@@ -120,10 +137,8 @@ pub struct Case {
     pub watched: &'static [&'static str],
     /// The particle field of its first run that is kept among the goldens.
     pub field: Option<FieldView>,
-    /// Title of the pictures of a scene at its end.
-    pub heading: String,
-    /// Lines that pictures of a scene show around its particles.
-    pub around: Vec<Line>,
+    /// Title, lines and input of a scene of one's own.
+    pub scenery: Option<Scenery>,
     /// The geometry.
     pub sketch: Sketch,
     /// Relative cost of a run, to start the longest first.
@@ -198,8 +213,7 @@ impl Case {
             sweeps: Vec::new(),
             watched: &[],
             field: None,
-            heading: String::new(),
-            around: Vec::new(),
+            scenery: None,
             sketch: Sketch::default(),
             cost: Box::new(|_| 1.0),
             ladder: &[],

@@ -2,7 +2,7 @@
 //!
 //! Ground that has failed slumps to another equilibrium: its displacement over the factor has a kink. docs/how-to/factor.md
 
-use crate::draw::{Chart, Dash, Marker, Series};
+use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Failure, LIMIT_LOAD, Record, Status};
@@ -60,12 +60,17 @@ impl Search {
         }
     }
 
+    /// Displacement (m) from which a trial fails, once there is one at the least factor.
+    fn limit(&self) -> f64 {
+        let first = self.trials.first().map_or(f64::NAN, |first| first.moved);
+        (SLUMPS * self.height).min(first + (GROWS[0] * self.height).max(GROWS[1] * first))
+    }
+
     /// Adds the trial of a run, and tells how it came out.
     pub fn add(&mut self, factor: f64, run: &Record) -> String {
         let moved = if run.status == Status::Ok { run.value("displacement_max") } else { f64::NAN };
-        let first = self.trials.first().map_or(moved, |first| first.moved);
-        let kink = (GROWS[0] * self.height).max(GROWS[1] * first);
-        let stands = moved < SLUMPS * self.height && moved - first < kink;
+        let limit = if self.trials.is_empty() { SLUMPS * self.height } else { self.limit() };
+        let stands = moved < limit;
         // A slump can leave the grid; a step that finds no equilibrium for another reason is no failure of the ground.
         let told = |e: &&Failure| e.kind != LIMIT_LOAD && e.kind != "off-grid";
         let unclear = run.error.as_ref().filter(told).map(|e| e.message.clone());
@@ -113,7 +118,11 @@ impl Search {
                 let points = own.map(|t| (t.factor, t.moved)).collect();
                 Series { marker, dash: Dash::Dotted, ..Series::line(name, points, usize::from(stands)) }
             });
-        Chart::new(self.result(), ["strength divided by (-)", "largest displacement (m)"], series.into())
+        let (name, value) = ("fails above".to_owned(), self.limit());
+        Chart {
+            reference_lines: vec![ReferenceLine { name, value, band: None }],
+            ..Chart::new(self.result(), ["strength divided by (-)", "largest displacement (m)"], series.into())
+        }
     }
 }
 

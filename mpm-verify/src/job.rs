@@ -80,6 +80,10 @@ pub trait Job: Memory + Send {
     }
     /// The particles as columns in seeding order: positions first (x, y, …).
     fn particles(&mut self) -> Vec<Column>;
+    /// Time (s) of the phases before that of now, and words that name it in errors; of a run without phases none.
+    fn before(&self) -> (f64, String) {
+        Default::default()
+    }
     /// The metrics at the end.
     fn metrics(&mut self) -> BTreeMap<String, Measured>;
     /// Work so far.

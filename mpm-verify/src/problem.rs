@@ -104,6 +104,10 @@ pub trait Problem<const D: usize>: Sized + Send {
     fn snapshot_at(&self, time: f64, seen: &Self::Seen, phase: &mut Phase<D>) -> Snapshot {
         Snapshot { time, columns: self.particles(seen, Columns::positions(phase.run.as_mut())).done() }
     }
+    /// As [`Job::before`].
+    fn before(&self, _seen: &Self::Seen) -> (f64, String) {
+        Default::default()
+    }
     /// Adds what is kept of the particles at the end to the `columns` with their positions.
     fn particles<'a>(&self, _seen: &Self::Seen, columns: Columns<'a, D>) -> Columns<'a, D> {
         columns
@@ -195,6 +199,10 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
 
     fn particles(&mut self) -> Vec<Column> {
         self.problem.particles(&self.seen, Columns::positions(self.phase.run.as_mut())).done()
+    }
+
+    fn before(&self) -> (f64, String) {
+        self.problem.before(&self.seen)
     }
 
     fn metrics(&mut self) -> BTreeMap<String, Measured> {

@@ -115,6 +115,9 @@ pub(crate) struct Making {
     memory: Option<f64>,
     #[command(flatten)]
     told: Told,
+    /// Whether the motion is drawn as well.
+    #[arg(skip)]
+    animated: bool,
 }
 
 impl Making {
@@ -133,7 +136,7 @@ impl Making {
     /// Makes `spec` of `case` in a folder, if there is one.
     pub(super) fn make(&self, case: &Case, spec: &RunSpec, folder: Option<&Path>) -> Result<Record, Error> {
         let saving = saving(self.checkpoint_every, self.resume.is_some());
-        let place = folder.map(|folder| (folder, saving));
+        let place = folder.map(|folder| (folder, saving, self.animated));
         run_one(case, spec, place, (or_all_cores(self.threads), self.memory()), self.told)
     }
 
@@ -143,20 +146,32 @@ impl Making {
     }
 }
 
-/// Copy of a scene file beside its results.
+/// Copy of a scene file beside its results, and the same with every key that it leaves out.
 const AS_RUN: &str = "scene-as-run.toml";
+const FILLED: &str = "scene-filled.toml";
 
 #[derive(Args)]
 pub(crate) struct Scene {
     /// Scene file in TOML: docs/reference/scene-files.md
     file: PathBuf,
+    /// Draw the snapshots one after the other as an animated PNG; the file has snapshot_rows
+    #[arg(long, requires = "folder")]
+    animate: bool,
     #[command(flatten)]
     pub(super) making: Making,
 }
 
 impl Scene {
-    pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        let scene = SceneFile::read(&self.file, 1.0, self.making.memory())?;
+    pub(super) fn execute(mut self) -> Result<ExitCode, Error> {
+        // Asked once: what the scene takes is missing afterwards.
+        let memory = self.making.memory();
+        self.making.memory = memory.map(|bytes| bytes / GIBIBYTE);
+        let scene = SceneFile::read(&self.file, 1.0, memory)?;
+        if self.animate && !scene.moves {
+            let cause = "--animate: snapshot_rows in [output] of a scene in the plane is needed";
+            return Err(Error::file(&self.file, cause));
+        }
+        self.making.animated = self.animate;
         if self.making.told.progress() {
             say(format!("{}\n", scene.case.title))?;
             for line in &scene.made {
@@ -167,6 +182,8 @@ impl Scene {
         let code = self.making.run(&scene.case, &scene.spec)?;
         if let Some(folder) = self.making.folder() {
             write_whole(&folder.join(AS_RUN), text.as_bytes())?;
+            let filled = scene.case.scenery.as_ref().map_or("", |scenery| &scenery.filled);
+            write_whole(&folder.join(FILLED), filled.as_bytes())?;
         }
         Ok(code)
     }
@@ -188,14 +205,14 @@ fn require_offered(case: &Case, scheme: Scheme) -> Result<(), Error> {
 fn run_one(
     case: &Case,
     spec: &RunSpec,
-    place: Option<(&Path, Saving)>,
+    place: Option<(&Path, Saving, bool)>,
     (threads, memory): (usize, Option<f64>),
     told: Told,
 ) -> Result<Record, Error> {
-    if let Some((folder, _)) = place {
+    if let Some((folder, ..)) = place {
         // A run leaves one of these, also if it is killed.
         let traces = [RECORD, checkpoint::FILE, ".mpm-verify", ".mpm-verify.lock"].map(|file| folder.join(file));
-        let files = ["series.csv", "particles.csv", "particles.vtu"].map(|file| folder.join(file));
+        let files = ["series.csv", "particles.csv", "particles.vtu", AS_RUN, FILLED].map(|file| folder.join(file));
         let in_the_way = files.iter().find(|file| {
             // A link is replaced, and what it leads to stays.
             file.is_file() && !file.is_symlink() && !traces.iter().any(|trace| trace.exists())
@@ -204,12 +221,12 @@ fn run_one(
             return Err(Error::file(file, "in the way, and not of a run of this program: name another folder"));
         }
     }
-    let held = place.map(|(folder, _)| hold(folder)).transpose()?;
-    if let Some((folder, Saving { resume: true, .. })) = place {
+    let held = place.map(|(folder, ..)| hold(folder)).transpose()?;
+    if let Some((folder, Saving { resume: true, .. }, animated)) = place {
         if let Some(record) = ended(case, spec, folder, told)? {
             checkpoint::discard(folder)?;
             // A run may have been killed between its record and its pictures.
-            single::draw(case, &record, folder)?;
+            single::draw(case, &record, folder, animated)?;
             if told.progress() {
                 say("The run is already complete; nothing to resume.\n\n")?;
             }
@@ -224,17 +241,19 @@ fn run_one(
     if told.progress() {
         say(format!("{size}.\n"))?;
     }
-    if let Some((folder, _)) = place {
+    if let Some((folder, ..)) = place {
         discard_report(folder)?;
     }
     let name = format!("{} {}", case.name, spec.folder());
     let teller = Teller::new(&name, told.progress());
-    let record = judged_run(case, spec, place, threads, &|now| teller.hear(|seconds| so_far(now, seconds)))?;
-    if let Some((folder, _)) = place {
-        let pictures = single::draw(case, &record, folder)?;
+    let kept = place.map(|(folder, saving, _)| (folder, saving));
+    let record = judged_run(case, spec, kept, threads, &|now| teller.hear(|seconds| so_far(now, seconds)))?;
+    if let Some((folder, _, animated)) = place {
+        let pictures = single::draw(case, &record, folder, animated)?;
         if told.progress() {
             let names = pictures.iter().map(|p| folder.join(&p.file).display().to_string());
             say(names.map(|name| format!("Picture: {name}\n")).collect::<String>())?;
+            say(format!("Page: {}\n", folder.join("index.html").display()))?;
         }
     } else if told.progress() {
         say("No files written; use --out DIR to keep results and pictures.\n")?;

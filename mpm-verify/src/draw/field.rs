@@ -110,7 +110,8 @@ fn picture(path: &Path, figure: &FieldFigure, coarser: u32) -> Result<RgbImage, 
         let corners = |p: &Point| [(p.0 - half, p.1 - half), (p.0 + half, p.1 + half)];
         panel.points.iter().flat_map(corners).chain(panel.outline.iter().copied()).collect::<Vec<_>>()
     };
-    let all: Vec<Point> = panels.iter().flat_map(extents).filter(finite).collect();
+    let bodies = figure.around.iter().filter(|(_, is_support)| !is_support).flat_map(|(line, _)| line.iter().copied());
+    let all: Vec<Point> = panels.iter().flat_map(extents).chain(bodies).filter(finite).collect();
     let range = |pick: fn(&Point) -> f64| extent(all.iter().map(pick)).filter(|r| r.1 > r.0);
     let values = extent([figure.range.0, figure.range.1].into_iter());
     let (Some(xs), Some(ys), Some(values)) = (range(|p| p.0), range(|p| p.1), values) else {

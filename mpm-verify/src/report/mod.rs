@@ -20,6 +20,7 @@ pub mod history;
 pub mod junit;
 pub mod keep;
 mod map;
+mod own_page;
 mod pages;
 mod prelude;
 mod price;
@@ -38,7 +39,7 @@ mod values;
 mod verdicts;
 mod words;
 
-use crate::files::{discard, files_in, folders_in, read_text, require_inside, write_dense_json};
+use crate::files::{SNAPSHOTS, discard, files_in, folders_in, read_text, require_inside, write_dense_json};
 use crate::golden::{self, Goldens};
 use crate::run::{series, slim::slim};
 use prelude::*;
@@ -146,6 +147,7 @@ fn owning<T>(out: &Path, write: impl FnOnce() -> Result<T, Error>) -> Result<T, 
 /// # Errors
 /// A page or a picture is there that this program has not written, one can't be removed, or a link leads out of the folder.
 pub fn discard_report(out: &Path) -> Result<(), Error> {
+    require_inside(out, Path::new(SNAPSHOTS))?;
     let places = places(out)?;
     let path = out.join(OWN);
     let account = if path.exists() { read_text(&path)? } else { String::new() };
@@ -162,11 +164,11 @@ pub fn discard_report(out: &Path) -> Result<(), Error> {
 fn places(out: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut files = [SUMMARY, "summary.md", "junit.xml", "index.html", "faults.html"].map(PathBuf::from).to_vec();
     files.extend(["png", "svg"].map(|e| PathBuf::from(format!("{}.{e}", speed::NAME))));
-    for case in cases::all() {
-        let folder = Path::new(case.name);
+    for name in cases::all().iter().map(|case| case.name).chain(["scene"]) {
+        let folder = Path::new(name);
         let drift = folder.join("drift");
         require_inside(out, &drift)?;
-        files.push(PathBuf::from(format!("{}.html", case.name)));
+        files.push(PathBuf::from(format!("{name}.html")));
         files.push(folder.join("study.json"));
         let mut found = files_in(&out.join(folder), &["png", "svg", "csv", "part"])?;
         for scheme in folders_in(&out.join(&drift))? {

@@ -309,7 +309,11 @@ fn drive(
             Ok(row) => row,
             // A later phase that refuses its parameters is wrong input, and no breakdown.
             Err(error @ mpm_core::Error::Input { .. }) => return Err(Error::Input(error.to_string())),
-            Err(error) => return Ok(Some(failure(&error))),
+            Err(error) => {
+                let ((before, phase), failure) = (job.before(), failure(&error));
+                let message = phase + &failure.message;
+                return Ok(Some(Failure { time: before + failure.time, message, ..failure }));
+            }
         };
         if let Some(journal) = &mut journal {
             journal.series.add(&row)?;

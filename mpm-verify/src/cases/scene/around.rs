@@ -2,45 +2,101 @@
 
 use super::fault;
 use super::form::{Finite, ShapeForm, SupportForm};
-use super::setup::{Setup, components};
+use super::setup::{Setup, acts, components, speeds};
 use super::shape::ends;
+use crate::case::{Scenery, Timed};
 use crate::cases::prelude::*;
 use crate::draw::Line;
+use mpm_core::stage::smooth_stroke;
 
 /// Corners of the polygon that a disc is drawn as.
 const ROUND: u32 = 72;
+/// Relative difference of two times that is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A support or a face: a box that may move.
+struct Held<const D: usize> {
+    ends: [[f64; 2]; D],
+    velocity: [f64; D],
+    rise: f64,
+    /// Beginning and duration (s) of the phases in which it acts.
+    acts: Vec<[f64; 2]>,
+}
+
+impl<const D: usize> Held<D> {
+    /// The line about it at a time (s), within the grid, if it acts then.
+    fn line(&self, grid: &Grid<D>, time: f64) -> Option<Line> {
+        let acts = |[begin, duration]: &[f64; 2]| *begin <= time && time <= (begin + duration) * (1.0 + ROUNDING);
+        if !self.acts.iter().any(acts) {
+            return None;
+        }
+        let stroke = |[begin, duration]: &[f64; 2]| smooth_stroke((time - begin).min(*duration), self.rise);
+        let stroke: f64 = self.acts.iter().map(stroke).sum();
+        let end = |a: usize, side: usize| {
+            (self.ends[a][side] + self.velocity[a] * stroke).clamp(grid.axes[a].lo, grid.axes[a].hi(grid.h))
+        };
+        let corners = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)];
+        Some((corners.map(|(i, j)| (end(0, i), end(D - 1, j))).to_vec(), true))
+    }
+}
 
 impl<const D: usize> Setup<D> {
-    /// Outlines of the bodies at the start, and of supports and faces at the end.
-    pub(super) fn around(&self) -> Vec<Line> {
-        let (open, all) = ([[f64::NEG_INFINITY, f64::INFINITY]; D], self.phases.len());
+    /// Title, lines and input that pictures and page show.
+    pub(super) fn scenery(&self, title: &'static str) -> Result<Scenery, toml::ser::Error> {
+        let mut last = 0.0;
+        let mut phases: Vec<(f64, String)> = Vec::new();
+        for phase in &self.phases {
+            phases.push((last, phase.name.clone()));
+            last += phase.duration();
+        }
+        let heading = move |time: f64| {
+            let phase = phases.iter().rfind(|(begin, _)| *begin < time).or(phases.first());
+            let name = phase.map_or("", |(_, name)| name);
+            format!("{title}: {name}, t = {} s", (1e6 * time).round() / 1e6)
+        };
+        let filled = toml::to_string(&self.form)?;
+        Ok(Scenery { end: last, up: self.up(), heading: Box::new(heading), around: self.around(), filled })
+    }
+
+    /// Outlines of the bodies at the start, and supports and faces at a time.
+    fn around(&self) -> Timed<Vec<Line>> {
+        if D != 2 {
+            return Box::new(|_| Vec::new());
+        }
+        let during = |names: &[String]| {
+            let mut before = 0.0;
+            let all = self.phases.iter().map(|phase| {
+                before += phase.duration();
+                (acts(names, &phase.name), [before - phase.duration(), phase.duration()])
+            });
+            all.filter(|(acts, _)| *acts).map(|(_, span)| span).collect::<Vec<_>>()
+        };
         let support = |form: &SupportForm| match form {
-            SupportForm::Wall { axis, end, .. } => {
-                let (mut ends, own) = (open, &self.grid.axes[*axis as usize]);
+            SupportForm::Wall { axis, end, phases, .. } => {
+                let own = &self.grid.axes[*axis as usize];
+                let mut ends = [[f64::NEG_INFINITY, f64::INFINITY]; D];
                 ends[*axis as usize] = [[own.lo, own.hi(self.grid.h)][*end as usize]; 2];
-                self.support(ends, [0.0; D])
+                Held { ends, velocity: [0.0; D], rise: 0.0, acts: during(phases) }
             }
-            SupportForm::Nodes { within, moves, .. } => {
-                self.support(ends(within), self.strokes(form, if *moves { all } else { 0 }))
+            SupportForm::Nodes { within, velocity_m_s, moves, rise_s, phases, .. } => {
+                let velocity = speeds(velocity_m_s).map(|speed| speed.filter(|_| *moves).unwrap_or(0.0));
+                Held { ends: ends(within), velocity, rise: rise_s.0, acts: during(phases) }
             }
         };
         let supports = self.form.supports.iter().map(|form| support(form.get_ref()));
         let faces = self.form.contacts.iter().map(|form| {
             let (form, mut ends) = (form.get_ref(), ends(&form.get_ref().within));
             ends[form.axis as usize] = [form.at_m.0; 2];
-            let time = self.stroke_time(form.rise_s.0, &form.phases, all);
-            self.support(ends, components(form.velocity_m_s.as_deref().unwrap_or_default()).map(|v| v * time))
+            let velocity = components(form.velocity_m_s.as_deref().unwrap_or_default());
+            Held { ends, velocity, rise: form.rise_s.0, acts: during(&form.phases) }
         });
-        let bodies = self.form.all_bodies().flat_map(|body| &body.get_ref().shapes).map(outline);
-        if D == 2 { bodies.chain(supports).chain(faces).collect() } else { Vec::new() }
-    }
-
-    /// The line about a box that has moved, within the grid.
-    fn support(&self, ends: [[f64; 2]; D], stroke: [f64; D]) -> Line {
-        let grid = &self.grid;
-        let end = |a: usize, side: usize| (ends[a][side] + stroke[a]).clamp(grid.axes[a].lo, grid.axes[a].hi(grid.h));
-        let corners = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)];
-        (corners.map(|(i, j)| (end(0, i), end(D - 1, j))).to_vec(), true)
+        let held: Vec<Held<D>> = supports.chain(faces).collect();
+        let bodies: Vec<Line> = self.form.all_bodies().flat_map(|body| &body.get_ref().shapes).map(outline).collect();
+        let grid = self.grid;
+        Box::new(move |time| {
+            let held = held.iter().filter_map(|held| held.line(&grid, time));
+            bodies.iter().cloned().chain(held).collect()
+        })
     }
 }
 

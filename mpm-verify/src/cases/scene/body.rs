@@ -7,7 +7,10 @@ use crate::cases::prelude::*;
 use mpm_core::bodies::Body;
 
 /// Name of `[body]` where it has none.
-const FIRST: &str = "body";
+pub(super) const FIRST: &str = "body";
+
+/// Poisson's ratio from which a solid is nearly incompressible: its bulk modulus is ten times its shear modulus.
+const NEARLY: f64 = 0.45;
 
 impl Form {
     /// All bodies, in their order.
@@ -23,6 +26,19 @@ impl Form {
     /// All laws at the start, in the order of the bodies.
     pub(super) fn laws(&self) -> impl Iterator<Item = &Line<LawForm>> {
         [&self.law].into_iter().chain(self.bodies.iter().filter_map(|body| body.get_ref().law.as_ref()))
+    }
+}
+
+impl LawForm {
+    /// Whether it hardly lets the volume change: a fluid, or a solid of a Poisson's ratio near one half.
+    pub(super) fn nearly_incompressible(&self) -> bool {
+        match self {
+            Self::NewtonianFluid { .. } => true,
+            Self::NeoHookean { poisson_ratio, .. }
+            | Self::Hencky { poisson_ratio, .. }
+            | Self::HenckyJ2 { poisson_ratio, .. } => poisson_ratio.0 >= NEARLY,
+            Self::DruckerPrager { .. } | Self::ImprovedHencky { .. } | Self::CamClay { .. } => false,
+        }
     }
 }
 
@@ -68,7 +84,10 @@ pub(super) fn check_bodies(source: &Source, form: &Form, scheme: Scheme) -> Resu
             (own.has_pores() && form.water.is_none(), "porosity and conductivity act on nothing: there is no [water]"),
             (own.k0.is_some() && form.water.is_some(), "k0 is of ground without [water]"),
             (k == 0 && own.has_pores(), "porosity and conductivity of [body] stand in [water]"),
-            (several && averages && !explicit, "implicit schemes average over one body: remedy none is allowed"),
+            (
+                several && averages && !explicit,
+                "implicit schemes average over one body: an explicit scheme or the remedy none is allowed",
+            ),
         ];
         if let Some((_, said)) = wrong.into_iter().find(|(is, _)| *is) {
             return Err(source.at(body, said));

@@ -13,7 +13,7 @@ const MOST_CELLS: u32 = 100_000;
 macro_rules! numbers {
     ($($(#[$doc:meta])* $name:ident($of:ty): $fits:expr, $allowed:expr;)*) => {
         $($(#[$doc])*
-        #[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
+        #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
         #[serde(try_from = "f64")]
         pub(super) struct $name(pub(super) $of);
 
@@ -23,6 +23,12 @@ macro_rules! numbers {
             fn try_from(value: f64) -> Result<Self, String> {
                 let fits: fn(f64) -> bool = $fits;
                 if fits(value) { Ok(Self(value as $of)) } else { Err(format!("{value} where {} is allowed", $allowed)) }
+            }
+        }
+
+        impl From<$name> for f64 {
+            fn from(number: $name) -> Self {
+                number.0.into()
             }
         })*
     };
@@ -51,7 +57,7 @@ numbers! {
 }
 
 /// Two ends along an axis, the lower one first; `-inf` and `inf` are allowed.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<f64>")]
 pub(super) struct Ends(pub(super) [f64; 2]);
 
@@ -67,7 +73,7 @@ impl TryFrom<Vec<f64>> for Ends {
 }
 
 /// A name chosen by the user; it heads columns and appears in messages.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String")]
 pub(super) struct Name(pub(super) String);
 
@@ -83,11 +89,24 @@ impl TryFrom<String> for Name {
     }
 }
 
+/// One, the default of a factor.
+fn one() -> Finite {
+    Finite(1.0)
+}
+
+/// Names of phases.
+fn named<'a, D: serde::Deserializer<'a>>(given: D) -> Result<Vec<String>, D::Error> {
+    match Vec::deserialize(given)? {
+        none if none.is_empty() => Err(serde::de::Error::custom("no phase where one or more are allowed")),
+        names => Ok(names),
+    }
+}
+
 /// Tables of keys, none of which may be unknown.
 macro_rules! tables {
     ($($(#[$of:meta])* $name:ident { $($(#[$key:meta])* $field:ident: $value:ty,)* })*) => {
         $($(#[$of])*
-        #[derive(Debug, Deserialize)]
+        #[derive(Debug, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
         pub(super) struct $name {
             $($(#[$key])* pub(super) $field: $value,)*
@@ -99,7 +118,7 @@ macro_rules! tables {
 macro_rules! kinds {
     ($($(#[$of:meta])* $name:ident { $($kinds:tt)* })*) => {
         $($(#[$of])*
-        #[derive(Debug, Deserialize)]
+        #[derive(Debug, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case", deny_unknown_fields)]
         pub(super) enum $name {
             $($kinds)*
@@ -137,7 +156,7 @@ tables! {
         shapes: Vec<Line<ShapeForm>>,
         velocity_m_s: Option<Vec<Finite>>,
         law: Option<Line<LawForm>>,
-        /// Whether the scheme's remedy averages over it: true.
+        /// Whether the scheme's remedy averages over it.
         remedy: Option<bool>,
         /// Coulomb's coefficient with which it slides on others; without, it sticks to those that have none either.
         friction: Option<NotNegative>,
@@ -172,7 +191,7 @@ tables! {
         #[serde(default)] rise_s: NotNegative,
         stiffness_n_m: Positive, reach_m: Positive,
         friction: Option<FrictionForm>,
-        #[serde(default)] phases: Vec<String>,
+        #[serde(default, deserialize_with = "named")] phases: Vec<String>,
     }
 
     /// Coulomb's friction; without a coefficient what touches never slips.
@@ -262,7 +281,7 @@ kinds! {
             bulk_parameter: Finite, shear_modulus_pa: Finite,
             critical_ratio: Finite, plastic_compressibility: Finite,
             preconsolidation_pa: Finite, initial_pressure_pa: Finite,
-            alpha: Option<Finite>, gamma: Option<Finite>,
+            #[serde(default = "one")] alpha: Finite, #[serde(default = "one")] gamma: Finite,
         },
     }
 
@@ -283,20 +302,20 @@ kinds! {
     LoadForm {
         Gravity {
             acceleration_m_s2: Vec<Finite>,
-            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
         /// A force shared by the particles that begin in a region; per metre of depth in plane strain.
         Force {
             total_n: Vec<Finite>,
             on: Region,
-            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
     }
 
     SupportForm {
         Wall {
             name: Name, axis: AxisForm, end: EndForm, kind: WallForm,
-            #[serde(default)] phases: Vec<String>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
         /// Nodes in a region that move at the given speeds (m/s), and freely along the axes that are not named.
         Nodes {
@@ -305,7 +324,7 @@ kinds! {
             velocity_m_s: BTreeMap<AxisForm, Finite>,
             /// Whether the region moves with them.
             #[serde(default)] moves: bool,
-            #[serde(default)] rise_s: NotNegative, #[serde(default)] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
     }
 }

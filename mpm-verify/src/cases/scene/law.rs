@@ -49,8 +49,7 @@ pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw,
             gamma,
         } => {
             let clay = CamClay::new(soaked(k.0, g.0)?, m.0, c.0, yields.0, initial.0)?;
-            let [alpha, gamma] = [alpha, gamma].map(|shape| shape.map_or(1.0, |x| x.0));
-            clay.shaped(alpha, gamma)?.into()
+            clay.shaped(alpha.0, gamma.0)?.into()
         }
     })
 }

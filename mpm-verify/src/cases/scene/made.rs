@@ -4,9 +4,11 @@ use super::fault::Line;
 use super::form::{BodyForm, LoadForm};
 use super::geostatic::geostatic;
 use super::phase::Phase;
-use super::setup::Setup;
+use super::setup::{Setup, acts};
 use super::shape::Seeds;
 use crate::cases::prelude::*;
+use mpm_core::SymmetricTensor;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -21,13 +23,17 @@ impl<const D: usize> Setup<D> {
         for ((body, law), range) in self.form.all_bodies().zip(laws).zip(self.ranges()) {
             let (body, law) = (body.get_ref(), Arc::clone(law));
             let vertical = overburden.get(range.clone()).unwrap_or_default();
-            let particles = self.particles_of(body, range)?;
+            let particles = self.particles_of(body, range.clone())?;
             let mut bodies = match all.take() {
                 None => Bodies::new(law, particles)?,
                 Some(others) => others.and(law, particles)?,
             };
             if let Some(k0) = body.k0.filter(|_| begins) {
                 bodies = bodies.under(|k, _| geostatic::<D>(vertical[k], k0.0))?;
+            }
+            let stresses = self.seeds.stresses.get(range).unwrap_or_default();
+            if begins && stresses.iter().any(|stress| *stress != SymmetricTensor::default()) {
+                bodies = bodies.under(|k, _| stresses[k])?;
             }
             if body.remedy == Some(false) {
                 bodies = bodies.without_remedy();
@@ -53,7 +59,7 @@ impl<const D: usize> Setup<D> {
     }
 
     fn particles_of(&self, body: &BodyForm, range: Range<usize>) -> Result<Particles<D>, mpm_core::Error> {
-        let Seeds { places, volumes, velocities } = &self.seeds;
+        let Seeds { places, volumes, velocities, .. } = &self.seeds;
         let (density, lattice) = (body.density_kg_m3.0, self.spacing.powi(D as i32));
         // Domains are alike: those of a table that has volumes are as large as its largest particle.
         let largest = volumes.iter().copied().fold(0.0, f64::max);
@@ -79,27 +85,65 @@ impl<const D: usize> Setup<D> {
         })
     }
 
-    /// Description of the bodies and of every phase.
-    pub(super) fn made(&self) -> Vec<String> {
-        let reach = self.reach();
-        let densities = || self.form.all_bodies().map(|body| body.get_ref().density_kg_m3.0);
-        let density = densities().fold(0.0, f64::max);
-        // Σ |g| times the reach: the stress below a column as high as the body.
+    /// The axis along which gravity is greatest; the last one without gravity.
+    pub(super) fn up(&self) -> usize {
+        let mut most = [0.0; D];
+        for load in &self.form.loads {
+            if let LoadForm::Gravity { acceleration_m_s2: g, .. } = load.get_ref() {
+                most = std::array::from_fn(|a| f64::max(most[a], g[a].0.abs()));
+            }
+        }
+        (0..D).max_by(|a, b| most[*a].total_cmp(&most[*b])).unwrap_or(D - 1)
+    }
+
+    /// Height of the highest place of the surface over its lowest (m): that of a slope, whatever lies below; of level
+    /// ground the whole height.
+    pub(super) fn relief(&self) -> f64 {
+        let (up, mut tops) = (self.up(), HashMap::new());
+        for x in &self.seeds.places {
+            let mut column = x.map(|x| (x / self.spacing).floor() as i64);
+            column[up] = 0;
+            let top = tops.entry(column).or_insert(f64::MIN);
+            *top = f64::max(*top, x[up]);
+        }
+        let (lo, hi) = tops.values().fold((f64::MAX, f64::MIN), |(lo, hi), x| (lo.min(*x), hi.max(*x)));
+        if hi - lo > self.grid.h { hi - lo } else { self.reach()[up] }
+    }
+
+    /// Density of every body (kg/m³).
+    fn densities(&self) -> impl Iterator<Item = f64> {
+        self.form.all_bodies().map(|body| body.get_ref().density_kg_m3.0)
+    }
+
+    /// Σ |g| times the reach and the greatest density: the stress (Pa) below a column as high as the bodies.
+    pub(super) fn weight(&self) -> f64 {
+        let (reach, density) = (self.reach(), self.densities().fold(0.0, f64::max));
         let weight = |load: &Line<LoadForm>| match load.get_ref() {
             LoadForm::Gravity { acceleration_m_s2: g, .. } => {
                 g.iter().zip(&reach).map(|(g, reach)| density * g.0.abs() * reach).sum()
             }
             LoadForm::Force { .. } => 0.0,
         };
-        let weight = self.form.loads.iter().map(weight).fold(0.0, f64::max);
+        self.form.loads.iter().map(weight).fold(0.0, f64::max)
+    }
+
+    /// Description of the bodies and of every phase.
+    pub(super) fn made(&self) -> Vec<String> {
+        let (reach, weight) = (self.reach(), self.weight());
         let size: Vec<String> = reach.iter().map(|reach| format!("{reach:.2}")).collect();
         let of = |phase: &Phase| {
             let strength = phase.strength.map_or(String::new(), |s| format!(", undrained shear strength {s:.0} Pa"));
-            let laws = [&phase.law].into_iter().chain(&self.others).zip(densities());
+            let laws = [&phase.law].into_iter().chain(&self.others).zip(self.densities());
             let speed = laws.map(|(law, density)| law.wave_speed(density)).fold(0.0, f64::max);
+            let pulls = |load: &Line<LoadForm>, name: &str| matches!(load.get_ref(), LoadForm::Gravity { phases, .. } if acts(phases, name));
+            let without = self.form.loads.iter().any(|load| matches!(load.get_ref(), LoadForm::Gravity { .. }))
+                && !self.form.loads.iter().any(|load| pulls(load, &phase.name));
             format!(
-                "Phase {}: speed of sound {speed:.1} m/s{strength}; {} steps of {:.3e} s.",
-                phase.name, phase.steps, phase.dt
+                "Phase {}: speed of sound {speed:.1} m/s{strength}; {} steps of {:.3e} s{}.",
+                phase.name,
+                phase.steps,
+                phase.dt,
+                if without { ", without gravity" } else { "" }
             )
         };
         let unit = ["m", "m²", "m³"][D - 1];
@@ -108,8 +152,13 @@ impl<const D: usize> Setup<D> {
             format!("{}: {volume:.2} {unit}, {} kg/m³", body.name(), body.density_kg_m3.0)
         });
         let each: Vec<String> = each.collect();
+        let means = || self.seeds.stresses.iter().map(SymmetricTensor::mean);
+        let stress = (!self.seeds.stresses.is_empty()).then(|| {
+            let (least, most) = (means().fold(f64::MAX, f64::min), means().fold(f64::MIN, f64::max));
+            format!("Mean stress of the tables at the start, tension positive: {least:.0} to {most:.0} Pa.")
+        });
         let all =
             format!("Bodies: {} m; {}; their height weighs at most {weight:.0} Pa.", size.join(" × "), each.join("; "));
-        std::iter::once(all).chain(self.phases.iter().map(of)).collect()
+        std::iter::once(all).chain(stress).chain(self.phases.iter().map(of)).collect()
     }
 }

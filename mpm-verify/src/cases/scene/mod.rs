@@ -4,7 +4,10 @@
 //! The format: `docs/reference/scene-files.md`.
 
 mod around;
+mod balance;
 mod body;
+mod checks;
+mod defaults;
 mod fault;
 mod form;
 mod geostatic;
@@ -22,21 +25,17 @@ mod tests;
 
 use crate::case::Tier;
 use crate::cases::prelude::*;
-use crate::check::On;
 use crate::error::one_line;
-use crate::files::{Mark, read_text};
+use crate::files::read_text;
 use crate::problem::Driver;
-use crate::verdict::Kind;
+use checks::checks;
 use fault::Source;
 use form::{FORMAT, Form};
 use setup::Setup;
 use shape::Seeds;
 use std::path::Path;
 use std::sync::Mutex;
-use watch::{Course, MASS};
-
-/// Relative tolerance of the check of a run's mass: a sum of many terms rounds.
-const ROUNDING: f64 = 1e-9;
+use watch::Course;
 
 /// A scene that a file describes.
 pub struct SceneFile {
@@ -46,7 +45,9 @@ pub struct SceneFile {
     pub spec: RunSpec,
     /// Bodies and steps made from the file, a line each: a wrong unit shows here.
     pub made: Vec<String>,
-    /// Height of the body, along the last axis (m).
+    /// Whether it keeps snapshots of particles in the plane, which show its motion.
+    pub moves: bool,
+    /// Height of the surface of its bodies over its lowest place (m).
     pub height: f64,
 }
 
@@ -85,19 +86,22 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
         let run = setup.solve(phase).map_err(|e| setup.fault(&source, phase, &e))?;
         mass = run.totals().mass;
         (size.particles, size.nodes) = (run.particles().len() as f64, run.work().nodes as f64);
+        setup.keep_first(run);
     }
-    let mut all = source.text.clone().into_bytes();
-    let Seeds { places, volumes, velocities } = &setup.seeds;
-    let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened());
-    all.extend(numbers.flat_map(|x| x.to_le_bytes()));
-    all.extend(source.weaker.to_le_bytes());
+    let mut sum = crc32fast::Hasher::new();
+    sum.update(source.text.as_bytes());
+    let Seeds { places, volumes, velocities, stresses } = &setup.seeds;
+    let parts = stresses.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
+    let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened()).copied().chain(parts);
+    numbers.chain([source.weaker]).for_each(|x| sum.update(&x.to_le_bytes()));
     // A checksum of file and particles, by which a checkpoint tells its scene from others.
-    let level = Level { name: lasting(format!("{:08x}", Mark::of(&all).checksum)), h: setup.grid.h };
-    let (scheme, made, height, around) = (setup.scheme, setup.made(), setup.reach()[D - 1], setup.around());
-    let duration: f64 = setup.form.phases.iter().map(|phase| phase.get_ref().duration_s.0).sum();
+    let level = Level { name: lasting(format!("{:08x}", sum.finalize())), h: setup.grid.h };
+    let (scheme, made, height, weight) = (setup.scheme, setup.made(), setup.relief(), setup.weight());
     let title = lasting(one_line(&setup.form.title));
-    let last = setup.phases.last().map_or("", |phase| &phase.name);
-    let heading = format!("{title}: {last}, t = {} s", (1e6 * duration).round() / 1e6);
+    let watched = watch::watched(&setup);
+    let moves = D == 2 && setup.form.output.get_ref().snapshot_rows.is_some();
+    let scenery = setup.scenery(title).map_err(|e| Error::file(&source.path, e))?;
+    let unbalanced = setup.unbalanced();
     let built = Mutex::new(Some(setup));
     let begin: Begin = Box::new(move |spec: &RunSpec, values: &Parameters| {
         let made = match built.lock().ok().and_then(|mut built| built.take()) {
@@ -107,22 +111,19 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
         let course = Course::new(crate::setup::Setup::new(spec, values, made))?;
         Ok(Box::new(Driver::new(course)?) as Box<dyn Job>)
     });
-    let why = "particles carry their mass: a sum of it rounds";
-    let kept = move |r: &Record| vec![Finding::within(MASS, r.metric(MASS), mass, ROUNDING * mass, why)];
-    let (statement, on) = ("The mass stays what it was.", On::Run(Box::new(kept)));
+    let checks = checks(mass, weight, unbalanced);
     let case = Case {
-        description: "What a scene file describes.",
+        description: lasting(made.join("\n")),
         limits: vec!["Nothing is known of the answer, so nothing is judged."],
         levels: vec![level],
         plan: vec![Family { tier: Tier::Long, levels: vec![level], schemes: vec![scheme], set: Vec::new() }],
-        checks: vec![Check { name: "mass", kind: Kind::Bookkeeping, statement, on }],
-        watched: &["displacement_max", "kinetic_energy"],
+        checks,
+        watched: Box::leak(watched.into_boxed_slice()),
         size: Some(size),
-        heading,
-        around,
+        scenery: Some(scenery),
         ..Case::begun_by("scene", title, &watch::metrics_in(D), Vec::new(), begin)
     };
-    Ok(SceneFile { case, spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false }, made, height })
+    Ok(SceneFile { case, spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false }, made, moves, height })
 }
 
 /// A text that lives as long as the program, which reads few scenes.

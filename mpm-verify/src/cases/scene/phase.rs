@@ -8,6 +8,8 @@ use std::sync::Arc;
 
 /// Most rows of a phase.
 const MOST_ROWS: f64 = 1e7;
+/// Resolution of the time (s) in the names of snapshots.
+const NAMED: f64 = 1e-3;
 /// Share of a duration by which it may differ from a whole number of steps.
 const WHOLE: f64 = 1e-3;
 
@@ -125,6 +127,12 @@ pub(super) fn phases(
             );
             return Err(source.at(phase, said));
         }
+        let kept = form.output.get_ref().snapshot_rows.map(|rows| f64::from(rows.0) * steps_per_row * dt);
+        if let Some(apart) = kept.filter(|apart| *apart < NAMED * (1.0 - WHOLE)) {
+            let said =
+                format!("snapshots {apart} s apart, where at least {NAMED} s is allowed, which their names tell");
+            return Err(source.at(&form.output, said));
+        }
         if given.local_damping.is_some() && !explicit {
             return Err(source.at(phase, "local_damping has no meaning with an implicit scheme"));
         }
@@ -138,7 +146,7 @@ pub(super) fn phases(
             steps: steps as u64,
             steps_per_row: steps_per_row as u64,
             dt,
-            damping: given.local_damping.map_or(0.0, |share| share.0),
+            damping: given.local_damping.unwrap_or_default().0,
         });
     }
     if all.is_empty() { Err(Error::file(&source.path, "phases: none, where 1 or more are allowed")) } else { Ok(all) }

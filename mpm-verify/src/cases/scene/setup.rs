@@ -13,15 +13,14 @@ use crate::cases::prelude::*;
 use crate::size::Size;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit;
-use mpm_core::implicit::{self, GHOST, TimeRule};
+use mpm_core::implicit::{self, TimeRule};
 use mpm_core::poro::{self, Face, PressureSpace};
 use mpm_core::stage::{
     Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, MovingNodes, RigidNodes, smooth_rise,
     smooth_stroke,
 };
+use std::sync::Mutex;
 
-/// Share of the lumped mass with the midpoint rule: with the consistent mass alone a body that flies is singular.
-const LUMPED: f64 = 0.1;
 /// Most cells of a grid.
 const MOST_CELLS: f64 = 1e8;
 
@@ -44,13 +43,16 @@ pub(super) struct Setup<const D: usize> {
     pub(super) spacing: f64,
     /// Size as it was weighed.
     pub(super) size: Size,
+    /// The simulation of the first phase at its start, until a run begins with it.
+    first: Mutex<Option<Box<dyn Simulation<D>>>>,
 }
 
 impl<const D: usize> Setup<D> {
     /// Set-up of the scene in a file.
-    pub(super) fn new(source: &Source, form: Form) -> Result<Self, Error> {
+    pub(super) fn new(source: &Source, mut form: Form) -> Result<Self, Error> {
         let grid = grid(source, &form)?;
         let scheme = scheme(source, &form)?;
+        form.fill(scheme);
         check_bodies(source, &form, scheme)?;
         let spacing = grid.h / f64::from(per_direction(&form));
         let size = weigh(source, &form, &grid, spacing, scheme)?;
@@ -60,7 +62,7 @@ impl<const D: usize> Setup<D> {
         let (seeds, ends) = seed(source, &form, &grid, spacing)?;
         let others = other_laws(source, &form)?;
         let phases = phases(source, &form, scheme, grid.h, &others)?;
-        let setup = Self { scheme, phases, grid, seeds, ends, others, spacing, size, form };
+        let setup = Self { scheme, phases, grid, seeds, ends, others, spacing, size, form, first: Mutex::new(None) };
         setup.check(source)?;
         setup.check_geostatic(source)?;
         Ok(setup)
@@ -156,16 +158,11 @@ impl<const D: usize> Setup<D> {
     }
 
     /// Strokes (m) of a support, along every axis, in the first phases of the scene.
-    pub(super) fn strokes(&self, support: &SupportForm, count: usize) -> [f64; D] {
+    fn strokes(&self, support: &SupportForm, count: usize) -> [f64; D] {
         let SupportForm::Nodes { velocity_m_s, rise_s, phases, .. } = support else { return [0.0; D] };
-        let time = self.stroke_time(rise_s.0, phases, count);
+        let acting = self.phases.iter().take(count).filter(|phase| acts(phases, &phase.name));
+        let time: f64 = acting.map(|phase| smooth_stroke(phase.duration(), rise_s.0)).sum();
         speeds(velocity_m_s).map(|speed| speed.map_or(0.0, |speed| speed * time))
-    }
-
-    /// Stroke over full velocity (s) of what moves in some phases, in the first `count` of the scene.
-    pub(super) fn stroke_time(&self, rise: f64, phases: &[String], count: usize) -> f64 {
-        let acting = self.phases.iter().take(count).filter(|phase| acts(phases, &phase.name)).map(Phase::duration);
-        acting.map(|duration| smooth_stroke(duration, rise)).sum()
     }
 
     /// Particles per cell.
@@ -177,7 +174,7 @@ impl<const D: usize> Setup<D> {
     pub(super) fn walls(&self) -> WallTreatment {
         match self.form.solver.get_ref().walls {
             Some(WallsForm::WallLine) => WallTreatment::WallLine,
-            Some(WallsForm::OpenKnot) | None => WallTreatment::OpenKnot,
+            _ => WallTreatment::OpenKnot,
         }
     }
 
@@ -214,6 +211,19 @@ impl<const D: usize> Setup<D> {
             }
             _ => Error::file(&source.path, format!("phase {}: {error}", phase.name)),
         }
+    }
+
+    /// Keeps the simulation of the first phase, which a run begins with.
+    pub(super) fn keep_first(&self, run: Box<dyn Simulation<D>>) {
+        if let Ok(mut first) = self.first.lock() {
+            first.get_or_insert(run);
+        }
+    }
+
+    /// The simulation with which a run begins.
+    pub(super) fn begin(&self) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
+        let first = self.first.lock().ok().and_then(|mut first| first.take());
+        first.map_or_else(|| self.solve(&self.phases[0]), Ok)
     }
 
     /// The simulation of a phase at its start.
@@ -307,8 +317,7 @@ impl<const D: usize> Setup<D> {
         let form = self.form.solver.get_ref();
         let flip = match (form.flip, form.pic_rate_per_s) {
             (Some(share), _) => share.0,
-            (None, Some(rate)) => (-rate.0 * phase.dt).exp(),
-            (None, None) => 1.0,
+            (None, rate) => (-value(rate) * phase.dt).exp(),
         };
         let mut settings = explicit::Settings::new(phase.dt).wall(self.walls()).remedy(self.scheme.remedy().build());
         if phase.damping > 0.0 {
@@ -324,14 +333,14 @@ impl<const D: usize> Setup<D> {
     pub(super) fn implicit(&self, phase: &Phase) -> implicit::Settings {
         let form = self.form.solver.get_ref();
         let rule = match self.scheme.rule() {
-            Some(RuleName::Midpoint) => TimeRule::Midpoint { lumped: form.lumped.map_or(LUMPED, |share| share.0) },
+            Some(RuleName::Midpoint) => TimeRule::Midpoint { lumped: value(form.lumped) },
             Some(RuleName::Newmark) => TimeRule::Newmark { alpha: 0.25, delta: 0.5 },
             Some(RuleName::QuasiStatic) | None => TimeRule::Static,
         };
         let settings = implicit::Settings::new(phase.dt).rule(rule);
         implicit::Settings {
-            tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
-            stabilisation: Stabilisation::ghost(form.ghost_penalty.map_or(GHOST, |factor| factor.0)),
+            tolerance: value(form.tolerance),
+            stabilisation: Stabilisation::ghost(value(form.ghost_penalty)),
             ..settings
         }
     }
@@ -347,13 +356,13 @@ impl<const D: usize> Setup<D> {
             pressure_space: match self.scheme {
                 Scheme::Poro(parts) if parts.space == SpaceName::TwoGrid => PressureSpace::TwoGrid,
                 Scheme::Poro(parts) if parts.space == SpaceName::Ppp => {
-                    PressureSpace::Projected { strength: form.projection_per_pa.map_or(f64::NAN, |x| x.0) }
+                    PressureSpace::Projected { strength: value(form.projection_per_pa) }
                 }
                 _ => PressureSpace::Equal,
             },
-            tolerance: form.tolerance.map_or(settings.tolerance, |t| t.0),
-            ghost_displacement: form.ghost_penalty.map_or(GHOST, |factor| factor.0),
-            ghost_pressure: form.ghost_pressure.map_or(0.0, |share| share.0),
+            tolerance: value(form.tolerance),
+            ghost_displacement: value(form.ghost_penalty),
+            ghost_pressure: value(form.ghost_pressure),
             ..settings
         }
     }
@@ -390,7 +399,7 @@ fn face_of<const D: usize>(form: &FaceForm, particles: &Particles<D>) -> Face<D>
             let (traction, rise) = (components::<D>(traction), form.rise_s.0);
             Face::loaded(particles, on, at, move |time| traction.map(|t| t * smooth_rise(time, rise)))
         }
-        (None, penalty) => Face::drained(particles, on, at, penalty.map_or(f64::NAN, |p| p.0)),
+        (None, penalty) => Face::drained(particles, on, at, value(penalty)),
     }
 }
 
@@ -409,8 +418,13 @@ fn contact<const D: usize>(form: &ContactForm) -> Result<RigidContact<D>, mpm_co
     })
 }
 
+/// The value of a key; the core refuses the one that stands for a key without a value.
+fn value(key: Option<impl Into<f64>>) -> f64 {
+    key.map_or(f64::NAN, Into::into)
+}
+
 /// Speeds (m/s) along the axes that are named.
-fn speeds<const D: usize>(named: &BTreeMap<AxisForm, Finite>) -> [Option<f64>; D] {
+pub(super) fn speeds<const D: usize>(named: &BTreeMap<AxisForm, Finite>) -> [Option<f64>; D] {
     let axes = [AxisForm::X, AxisForm::Y, AxisForm::Z];
     std::array::from_fn(|a| named.get(&axes[a]).map(|speed| speed.0))
 }

@@ -5,6 +5,7 @@ use super::fault::{Line, Source};
 use super::form::{Ends, Finite, Form, Region, ShapeForm};
 use super::polygon::{Polygon, crossing};
 use crate::cases::prelude::*;
+use mpm_core::SymmetricTensor;
 use std::collections::HashMap;
 
 /// Most particles of a scene.
@@ -14,6 +15,8 @@ const LOOKED_AT: f64 = 4.0;
 /// A point this near to a side, over the distance of points, is in the shape.
 const ON_SIDE: f64 = 1e-9;
 const AXES: [&str; 3] = ["x", "y", "z"];
+/// Parts of a stress; the first four in the plane and along a line.
+const STRESSES: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
 
 /// Share of the mean size of two particles within which the one stands on the other, along every axis.
 const OVERLAP: f64 = 0.75;
@@ -27,6 +30,8 @@ pub(super) struct Seeds<const D: usize> {
     pub(super) volumes: Vec<f64>,
     /// Velocities (m/s).
     pub(super) velocities: Vec<[f64; D]>,
+    /// Cauchy stresses (Pa), if a table has any.
+    pub(super) stresses: Vec<SymmetricTensor>,
 }
 
 /// The particles, body by body and shape by shape, and where those of every body end; a point of two shapes is there once.
@@ -53,6 +58,11 @@ pub(super) fn seed<const D: usize>(
         let before = seeds.places.len();
         if let ShapeForm::Particles { file } = shape.get_ref() {
             read(source, shape, file, grid.h, &mut seeds)?;
+            let (stressed, k0) = (seeds.stresses.len() > before, body.get_ref().k0.is_some());
+            if stressed && (k0 || form.water.is_some()) {
+                let said = "a table with stress is of ground without k0 and without [water]";
+                return Err(source.at(shape, said));
+            }
         } else {
             let form = Shape::<D>::of(source, shape, spacing)?;
             let room = MOST.saturating_sub(before);
@@ -81,6 +91,9 @@ pub(super) fn seed<const D: usize>(
         let count = seeds.places.len();
         seeds.volumes.resize(count, spacing.powi(D as i32));
         seeds.velocities.resize(count, velocity);
+        if !seeds.stresses.is_empty() {
+            seeds.stresses.resize(count, SymmetricTensor::default());
+        }
         if count == before {
             let said = format!("a shape without a particle: they stand {spacing} m apart");
             return Err(source.at(shape, said));
@@ -266,7 +279,8 @@ impl<const D: usize> Shape<D> {
     }
 }
 
-/// Adds the particles of a table. Without a volume they have that of the lattice, without a velocity that of the body.
+/// Adds the particles of a table. Without a volume they have that of the lattice, without a velocity that of the body,
+/// without stress none.
 fn read<const D: usize>(
     source: &Source,
     at: &Line<ShapeForm>,
@@ -279,7 +293,9 @@ fn read<const D: usize>(
     let places = AXES.map(|axis| format!("{axis} (m)"));
     let velocities = AXES.map(|axis| format!("velocity_{axis} (m/s)"));
     let volume = format!("volume ({})", ["m", "m²", "m³"][D - 1]);
-    let known: Vec<&String> = places[..D].iter().chain(&velocities[..D]).chain([&volume]).collect();
+    let stresses: Vec<String> = STRESSES.map(|part| format!("stress_{part} (Pa)")).into();
+    let stresses = &stresses[..if D == 3 { 6 } else { 4 }];
+    let known: Vec<&String> = places[..D].iter().chain(&velocities[..D]).chain([&volume]).chain(stresses).collect();
     let fault = |said: String| Err(Error::file(&path, said));
     if let Some((head, _)) = table.iter().find(|(head, _)| known.iter().all(|known| known != head)) {
         return fault(format!("column {head:?} where {known:?} are read"));
@@ -308,5 +324,18 @@ fn read<const D: usize>(
         // Particles of shapes before this one have theirs already.
         seeds.velocities.extend((0..table.rows()).map(|k| row(&velocities, k)));
     }
+    let given: Vec<Option<&[f64]>> = stresses.iter().map(|part| table.get(part)).collect();
+    if let (Some(_), Some(lacks)) = (given.iter().flatten().next(), given.iter().position(Option::is_none)) {
+        return fault(format!("no column {:?}, where there are other parts of the stress", stresses[lacks]));
+    }
+    let (before, stressed) = (seeds.places.len() - table.rows(), given[0].is_some());
+    if stressed {
+        seeds.stresses.resize(before, SymmetricTensor::default());
+    }
+    let part = |part: usize, k: usize| given.get(part).copied().flatten().map_or(0.0, |column| column[k]);
+    seeds.stresses.extend((0..table.rows()).filter(|_| stressed).map(|k| {
+        let [xx, yy, zz, xy, yz, xz] = std::array::from_fn(|own| part(own, k));
+        SymmetricTensor { xx, yy, zz, xy, yz, xz }
+    }));
     Ok(())
 }

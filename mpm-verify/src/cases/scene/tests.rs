@@ -4,10 +4,13 @@ use crate::parameter::Parameters;
 use std::path::PathBuf;
 
 mod bodies;
+mod filled;
 mod fuzz;
 mod moves;
 mod pairs;
+mod random;
 mod soil;
+mod weights;
 
 fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
@@ -107,7 +110,9 @@ fn nodes_slide_along_a_region_without_ends_and_every_row_may_have_a_snapshot() {
 #[test]
 fn what_is_wrong_is_named_with_line_and_key() {
     // What is replaced, by what; what the error must say.
-    let wrong: [(&str, &str, &[&str]); 32] = [
+    let wrong: [(&str, &str, &[&str]); 34] = [
+        ("phases = [\"weight\"]", "phases = []", &["line 24", "no phase where one or more"]),
+        ("row_s = 0.02\nsnapshot_rows = 50", "row_s = 5e-4\nsnapshot_rows = 1", &["[output]", "apart", "0.001 s"]),
         (
             "gravity = { acceleration_m_s2 = [0, -9.81], rise_s",
             "gravity = -9.81 #",
@@ -118,7 +123,7 @@ fn what_is_wrong_is_named_with_line_and_key() {
         ("cell_size_m = 0.5", "cell_size_m = \"0.5\"", &["line 7, cell_size_m", "string"]),
         ("cells = [60, 14]", "cells = [60, 2]", &["line 9, cells", "2", "4 to 100000"]),
         ("lower_m = [0.0, 0.0]", "lower_m = [0.0]", &["line 6, [grid]", "lower_m", "2 axes"]),
-        ("\"wall-open\", \"wall-open\"", "\"wal-open\", \"wall-open\"", &["line 10, ends", "is `wall-open` meant?"]),
+        ("\"walls\", \"wall-open\"", "\"walls\", \"wal-open\"", &["line 10, ends", "is `wall-open` meant?"]),
         ("[law.hencky-j2]", "[law.hencky-j3]", &["hencky-j3", "hencky-j2"]),
         ("poisson_ratio = 0.49\n", "", &["poisson_ratio", "missing"]),
         ("poisson_ratio = 0.49", "poisson_ratio = 0.5", &["law", "Poisson's ratio", "0.5"]),
@@ -137,13 +142,13 @@ fn what_is_wrong_is_named_with_line_and_key() {
         ("phases = [\"weight\"]", "phases = [\"wait\"]", &["\"wait\"", "weight, slide"]),
         ("axis = \"y\"", "axis = \"z\"", &["axis z"]),
         ("name = \"base\"", "name = \"=cmd()\"", &["=cmd()", "lower-case letters"]),
-        ("gimp-fbar-consistent-flip", "gimp-fbar-flip", &["[solver]", "fbar", "fbar-consistent"]),
+        ("bspline2-fbar-consistent-flip", "gimp-fbar-flip", &["[solver]", "fbar", "fbar-consistent"]),
         ("cfl = 0.3", "cfl = 0.3\ntolerance = 1e-9", &["tolerance has no meaning"]),
         ("duration_s = 1.0", "duration_s = inf", &["duration_s", "inf"]),
         ("cfl = 0.3", "time_step_s = 0.3", &["1 s in steps of 0.3 s", "whole steps"]),
         ("[30, 0], [30, 1]", "[30, 0, 7], [30, 1]", &["line 15", "a corner has 3 numbers", "2 axes"]),
-        ("name = \"back\"", "name = \"base\"", &["line 30", "a second support, contact or body \"base\""]),
-        ("end = \"lo\", kind = \"roller\"", "end = \"hi\", kind = \"roller\"", &["line 30", "a wall at an end"]),
+        ("name = \"back\"", "name = \"base\"", &["line 33", "a second support, contact or body \"base\""]),
+        ("end = \"lo\", kind = \"fixed\"", "end = \"hi\", kind = \"fixed\"", &["line 33", "a wall at an end"]),
         (
             BACK,
             "nodes = { name = \"n\", within = { x_m = [3, 2] }, velocity_m_s = { x = 0 } }",
@@ -157,12 +162,12 @@ fn what_is_wrong_is_named_with_line_and_key() {
         (
             BACK,
             "nodes = { name = \"n\", within = { x_m = [1.1, 1.2] }, velocity_m_s = { x = 0 } }",
-            &["line 30", "holds no node"],
+            &["line 29", "holds no node"],
         ),
         (
             BACK,
             "nodes = { name = \"n\", within = { x_m = [0, 2] }, velocity_m_s = { x = 0.1 }, rise_s = 1 }",
-            &["line 30", "0.3", "half a cell", "0.25 m"],
+            &["line 29", "0.3", "half a cell", "0.25 m"],
         ),
     ];
     for (from, to, parts) in wrong {
@@ -239,17 +244,28 @@ fn a_strength_is_divided_in_every_phase_where_there_is_one() {
     for (line, strength) in weak.made[1..].iter().zip(["10000 Pa", "4000 Pa"]) {
         assert!(line.contains(strength), "{line}");
     }
-    assert_eq!(weak.height, 5.0);
+    assert_eq!(weak.height, 4.0);
     let refused = SceneFile::read(&shipped("cook.toml"), 2.0, None).err().unwrap().to_string();
     assert!(refused.contains("law") && refused.contains("no strength"), "{refused}");
 }
 
 #[test]
 fn pictures_tell_title_phase_and_time_and_show_bodies_and_supports() {
-    let scene = SceneFile::read(&shipped("slope.toml"), 1.0, None).unwrap();
-    assert_eq!(scene.case.heading, "A bank of soft clay slides: slide, t = 4 s");
-    let (supports, bodies): (Vec<_>, Vec<_>) = scene.case.around.iter().partition(|(_, is_support)| *is_support);
-    assert_eq!(bodies[0].0.len(), 7);
-    let base = [(0.0, 0.0), (30.0, 0.0), (30.0, 0.0), (0.0, 0.0), (0.0, 0.0)];
-    assert_eq!((supports.len(), &supports[0].0[..]), (2, &base[..]));
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let pushes =
+        "nodes = { name = \"n\", within = { x_m = [0, 1], y_m = [0, 5] }, velocity_m_s = { x = 0.2 }, moves = true }";
+    std::fs::write(&path, std::fs::read_to_string(shipped("slope.toml")).unwrap().replace(BACK, pushes)).unwrap();
+    let scenery = SceneFile::read(&path, 1.0, None).unwrap().case.scenery.unwrap();
+    let heading = |time: f64| (scenery.heading)(time);
+    assert_eq!(heading(scenery.end), "A bank of soft clay slides: slide, t = 4 s");
+    assert_eq!([heading(0.0), heading(1.0)].map(|h| h.contains("weight")), [true; 2]);
+    for (time, x) in [(0.0, 0.0), (2.5, 0.5), (4.0, 0.8)] {
+        let around = (scenery.around)(time);
+        let (supports, bodies): (Vec<_>, Vec<_>) = around.iter().partition(|(_, is_support)| *is_support);
+        assert_eq!((bodies[0].0.len(), supports.len()), (7, 3));
+        let base = [(0.0, 0.0), (30.0, 0.0), (30.0, 0.0), (0.0, 0.0), (0.0, 0.0)];
+        assert_eq!(supports[2].0[..], base[..]);
+        assert!((supports[0].0[0].0 - x).abs() < 1e-9, "{time}: {supports:?}");
+    }
 }

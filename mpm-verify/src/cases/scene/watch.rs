@@ -1,5 +1,6 @@
 //! Observation of a scene's run: phase by phase, row by row.
 
+use super::balance::Balance;
 use super::body::moved;
 use super::lasting;
 use super::phase::Phase;
@@ -14,8 +15,15 @@ metrics! { pub(super) ALL:
     MASS = "mass", "kg", "mass of the body";
     MOST_MOVED = "displacement_max", "m", "largest displacement of a particle";
     KINETIC = "kinetic_energy", "J", "kinetic energy at the end";
+    RUNOUT = "runout", "m", "greatest horizontal displacement of a particle";
+    RUNOUT_BULK = "runout_bulk", "m", "horizontal displacement that a hundredth of the particles exceed";
+    SPEED = "speed_max", "m/s", "greatest speed of a particle at the end";
+    SETTLEMENT = "settlement", "m", "greatest downward displacement of a particle";
     J_MIN = "jacobian_min", "-", "least J of a particle";
     J_MAX = "jacobian_max", "-", "greatest J of a particle";
+    VOLUME = "volume_change_max", "-", "largest |J − 1| of a particle of a nearly incompressible body";
+    MOMENTUM = "momentum_gap", "-", "momentum that nothing gave, over what the loads give in a step";
+    ENERGY = "energy_gain", "-", "kinetic energy that nothing gave, over the rounding of what was moved";
     STRESS_MIN = "mean_stress_least", "Pa", "least mean normal stress of a particle, tension positive";
     STRESS_MAX = "mean_stress_greatest", "Pa", "greatest mean normal stress of a particle";
     BOARD = "mean_stress_oscillation", "Pa", "rms over particles of the mean stress less its average in the cells";
@@ -31,6 +39,9 @@ fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
         (unit, _) => unit,
     }
 }
+
+/// Most charts of a run's history.
+const CHARTS: usize = 6;
 
 /// The metrics of a scene in `dimension` dimensions.
 pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
@@ -50,6 +61,7 @@ pub(super) struct Seen {
     before: f64,
     /// Impulses (N s) on the parts at the last row.
     impulses: Vec<[f64; 3]>,
+    balance: Balance,
 }
 
 /// A run of a scene file.
@@ -90,6 +102,20 @@ impl<const D: usize> Course<D> {
     }
 }
 
+/// Columns that a reader should see first: displacement, kinetic energy of a scheme that has it, and upright forces.
+pub(super) fn watched<const D: usize>(setup: &Made<D>) -> Vec<&'static str> {
+    let up = ["x", "y", "z"][setup.up()];
+    let mut all = vec!["displacement_max"];
+    all.extend(matches!(setup.scheme, Scheme::Explicit(_)).then_some("kinetic_energy"));
+    for name in setup.phases.iter().flat_map(|phase| setup.parts(&phase.name)).flatten() {
+        let column = format!("{name}_{up}");
+        if all.len() < CHARTS && !all.contains(&&*column) {
+            all.push(lasting(column));
+        }
+    }
+    all
+}
+
 /// Names of the columns, which live as long as the program: a scene is read once in it.
 fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) -> Vec<&'static str> {
     let [energy, force, volume] = ["J", "N", "m³"].map(|unit| per_depth(unit, D));
@@ -113,6 +139,21 @@ fn columns<const D: usize>(scheme: Scheme, parts: &[String], bodies: &[&str]) ->
         all.extend(["x", "y", "z"].into_iter().take(D).map(|axis| lasting(format!("{name}_moved_{axis} (m)"))));
     }
     all
+}
+
+/// Greatest horizontal displacement of a particle, that which a hundredth of them exceed, and greatest settlement (m); not a
+/// number along a line, which has no horizontal.
+fn runout<const D: usize>(run: &dyn Simulation<D>, up: usize) -> [f64; 3] {
+    let p = run.particles();
+    let ways =
+        p.position.iter().zip(&p.reference).map(|(x, from)| std::array::from_fn::<f64, D, _>(|a| x[a] - from[a]));
+    let settled = ways.clone().map(|way| -way[up]).fold(f64::NEG_INFINITY, f64::max);
+    let sideways = |way: [f64; D]| (0..D).filter(|a| *a != up).map(|a| way[a] * way[a]).sum::<f64>().sqrt();
+    let mut sideways: Vec<f64> = ways.map(sideways).collect();
+    let (_, bulk, outer) = sideways.select_nth_unstable_by(p.len() - 1 - p.len() / 100, f64::total_cmp);
+    let bulk = *bulk;
+    let outer = outer.iter().copied().fold(bulk, f64::max);
+    if D == 1 { [f64::NAN, f64::NAN, settled] } else { [outer, bulk, settled] }
 }
 
 /// The largest displacement (m).
@@ -155,7 +196,7 @@ impl<const D: usize> Problem<D> for Course<D> {
     }
 
     fn begin(&self, seen: &Seen) -> Result<Box<dyn Simulation<D>>, mpm_core::Error> {
-        self.setup.solve(self.phase(seen))
+        if seen.phase == 0 { self.setup.begin() } else { self.setup.solve(self.phase(seen)) }
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut problem::Phase<D>) -> Result<Row, mpm_core::Error> {
@@ -167,9 +208,15 @@ impl<const D: usize> Problem<D> for Course<D> {
             phase.enter(self.begin(seen)?, Some(&body))?;
         }
         seen.impulses.resize(self.parts.len(), [0.0; 3]);
+        if seen.row == 0 {
+            seen.balance.begin(phase.run.as_ref());
+        }
         let iterations = phase.iterate(self.phase(seen).steps_of(seen.row))?;
         (seen.row, seen.rows) = (seen.row + 1, seen.rows + 1);
         let run = phase.run.as_ref();
+        if seen.row == self.phase(seen).rows() {
+            self.setup.balance(self.phase(seen), run, &mut seen.balance);
+        }
         let totals = run.totals();
         let mut row = vec![seen.before + run.time(), totals.kinetic_energy, totals.stored_energy, most_moved(run)];
         if !self.setup.is_explicit() {
@@ -184,6 +231,11 @@ impl<const D: usize> Problem<D> for Course<D> {
 
     fn progress(&self, seen: &Seen, _: &problem::Phase<D>) -> f64 {
         seen.rows as f64 / self.whole() as f64
+    }
+
+    fn before(&self, seen: &Seen) -> (f64, String) {
+        let (name, begun) = (&self.phase(seen).name, seen.before);
+        (begun, format!("phase {name}, which began at {begun} s: "))
     }
 
     fn snapshot(&self, seen: &Seen, phase: &mut problem::Phase<D>) -> Option<Snapshot> {
@@ -230,7 +282,7 @@ impl<const D: usize> Problem<D> for Course<D> {
         columns.each("id", "-", |p, k| f64::from(p.id[k])).each("body", "-", |p, k| body(p.id[k]))
     }
 
-    fn metrics(&self, _: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, seen: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_mut();
         let mean = run.field(Field::MeanStress);
         let averaged = run.field(Field::AveragedMeanStress);
@@ -238,17 +290,34 @@ impl<const D: usize> Problem<D> for Course<D> {
         let most = |values: &[f64]| values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
         let totals = run.totals();
+        let [outer, bulk, settlement] = runout(run, self.setup.up());
+        let [momentum, energy] = self.setup.unbalanced();
+        let speeds = run.particles().velocity.iter().map(|v| v.iter().map(|v| v * v).sum::<f64>().sqrt());
+        // No number where equilibrium has no velocity.
+        let speed = speeds.fold(f64::NAN, f64::max);
+        let bodies = run.scene().bodies.each.iter().zip(self.setup.form.laws());
+        let tight = bodies.filter(|(_, law)| law.get_ref().nearly_incompressible()).map(|(body, _)| body.range());
+        let changes = tight.flat_map(|range| &run.particles().jacobian[range]).map(|j| (j - 1.0).abs());
+        let volume = changes.fold(0.0, f64::max);
         let all = [
             (MASS, totals.mass),
             (MOST_MOVED, most_moved(run)),
             (KINETIC, totals.kinetic_energy),
+            (RUNOUT, outer),
+            (RUNOUT_BULK, bulk),
+            (SPEED, speed),
+            (SETTLEMENT, settlement),
             (J_MIN, totals.jacobian.0),
             (J_MAX, totals.jacobian.1),
+            (VOLUME, volume),
+            (MOMENTUM, if momentum.is_none() { seen.balance.momentum() } else { f64::NAN }),
+            (ENERGY, if energy.is_none() { seen.balance.energy() } else { f64::NAN }),
             (STRESS_MIN, least(&mean)),
             (STRESS_MAX, most(&mean)),
             (BOARD, checkerboard(&mean, &averaged)),
             (PLASTIC, most(&plastic)),
         ];
-        all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).into()
+        let all = all.into_iter().filter(|(_, value)| value.is_finite());
+        all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).collect()
     }
 }

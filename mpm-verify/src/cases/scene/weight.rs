@@ -5,9 +5,17 @@ use super::form::{Ends, Form, ShapeForm};
 use super::shape::{MOST, too_many};
 use crate::cases::prelude::*;
 use crate::size::Size;
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
 
 /// Bytes of an entry of a matrix: its value and its place, once in the elements and once in the matrix.
 const ENTRY: f64 = 48.0;
+
+/// Memory that the machine gives, over that in use at once: memory that is given back is kept.
+const KEPT: f64 = 1.3;
+/// Copies of the bytes of a body while it is handed over.
+const HANDED: f64 = 2.0;
 
 /// Length, area or volume of a shape in `dimension` dimensions (m, m², m³); zero of a table, whose rows are its particles.
 fn measure(shape: &ShapeForm, dimension: usize) -> f64 {
@@ -28,6 +36,24 @@ fn measure(shape: &ShapeForm, dimension: usize) -> f64 {
     }
 }
 
+/// Rows of a table, whose lines are counted and not kept; none of what is no plain file, which its reader refuses.
+fn rows(path: &Path) -> Result<f64, Error> {
+    let (fault, mut count) = (|e| Error::file(path, e), 0);
+    if !path.symlink_metadata().is_ok_and(|about| about.is_file()) {
+        return Ok(0.0);
+    }
+    let mut file = BufReader::new(File::open(path).map_err(fault)?);
+    loop {
+        let read = file.fill_buf().map_err(fault)?;
+        let bytes = read.len();
+        if bytes == 0 {
+            return Ok(count as f64);
+        }
+        count += read.iter().filter(|byte| **byte == b'\n').count();
+        file.consume(bytes);
+    }
+}
+
 /// Size of the bodies of particles `spacing` (m) apart on a grid, with what `scheme` keeps for it.
 ///
 /// # Errors
@@ -41,7 +67,10 @@ pub(super) fn weigh<const D: usize>(
 ) -> Result<Size, Error> {
     let mut particles = 0.0;
     for shape in form.all_bodies().flat_map(|body| &body.get_ref().shapes) {
-        let count = measure(shape.get_ref(), D) / spacing.powi(D as i32);
+        let count = match shape.get_ref() {
+            ShapeForm::Particles { file } => rows(&source.beside(shape, file)?)?,
+            form => measure(form, D) / spacing.powi(D as i32),
+        };
         if count > MOST as f64 {
             return Err(too_many(source, shape));
         }
@@ -49,16 +78,21 @@ pub(super) fn weigh<const D: usize>(
     }
     let nodes: f64 = grid.axes.iter().map(|axis| (axis.cells + scheme.basis().degree()) as f64).product();
     let (vectors, matrices) = (8.0 * D as f64, 8.0 * (D * D) as f64);
+    // A second phase is made beside the first, whose body is handed over as bytes.
+    let phases = form.phases.len().min(2) as f64;
+    let handed = (phases - 1.0) * particles * HANDED * (200.0 + 5.0 * vectors + matrices);
     let bytes = match scheme {
         // Columns, the seeds, and what sorting holds twice.
-        Scheme::Explicit(_) => particles * (220.0 + 10.0 * vectors + matrices) + nodes * 160.0,
+        Scheme::Explicit(_) => phases * (particles * (220.0 + 10.0 * vectors + matrices) + nodes * 160.0),
         Scheme::Implicit(_) | Scheme::Poro(_) => {
             let seen = ((scheme.basis().degree() + 1) as f64).powi(D as i32);
             let beside = ((2 * scheme.basis().degree() + 1) as f64).powi(D as i32);
             let unknown = nodes.min(2.0 * particles);
             let of_particle = 400.0 + 12.0 * vectors + matrices * matrices / 8.0 + seen * (16.0 + vectors);
-            particles * of_particle + nodes * 200.0 + unknown * beside * matrices / 8.0 * ENTRY
+            // Operators of averages and of water beside that of the solid, and work arrays of the solution.
+            let operators = if scheme.remedy() == RemedyName::None && form.water.is_none() { 1.5 } else { 2.6 };
+            operators * phases * (particles * of_particle + nodes * 200.0 + unknown * beside * matrices / 8.0 * ENTRY)
         }
     };
-    Ok(Size { particles, nodes, bytes, worked_out: true })
+    Ok(Size { particles, nodes, bytes: KEPT * (bytes + handed), worked_out: true })
 }

@@ -61,7 +61,7 @@ fn what_bodies_cannot_be_is_named_with_its_line() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("own.toml");
     let text = std::fs::read_to_string(shipped("block-on-clay.toml")).unwrap();
-    let scheme = "gimp-fbar-consistent-flip\"\ncfl = 0.3";
+    let scheme = "bspline2-fbar-consistent-flip\"\ncfl = 0.3";
     for (from, to, parts) in [
         ("name = \"block\"\n", "", &["[[bodies]]", "a body without a name"][..]),
         ("name = \"block\"", "name = \"clay\"", &["a second support, contact or body \"clay\""]),
@@ -89,7 +89,7 @@ fn what_bodies_cannot_be_is_named_with_its_line() {
     }
     let sticking = text.replacen("friction = 0.3\n", "", 1);
     let implicit = sticking.replacen(scheme, "midpoint-gimp-fbar-consistent\"\ntime_step_s = 0.01", 1);
-    let plain = sticking.replacen("gimp-fbar-consistent-flip", "gimp-none-flip", 1);
+    let plain = sticking.replacen("bspline2-fbar-consistent-flip", "gimp-none-flip", 1);
     let lacking = plain.replacen("name = \"block\"", "name = \"block\"\nremedy = false", 1);
     for (text, part) in [(implicit, "average over one body"), (lacking, "no remedy that a body could be without")] {
         std::fs::write(&path, text).unwrap();

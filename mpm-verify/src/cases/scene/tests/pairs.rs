@@ -2,7 +2,7 @@
 
 use super::*;
 
-const LAWS: [(&str, &str); 7] = [
+pub(super) const LAWS: [(&str, &str); 7] = [
     ("neo-hookean", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
     ("hencky", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
     ("drucker-prager", "young_modulus_pa = 1e6\npoisson_ratio = 0.3\ncohesion_pa = 1e3\nfriction_deg = 30"),
@@ -16,7 +16,7 @@ const LAWS: [(&str, &str); 7] = [
 ];
 
 /// A body of two cells along each axis that begins to sag between rollers.
-fn text(dimension: usize, (law, constants): (&str, &str), scheme: &str) -> String {
+pub(super) fn text(dimension: usize, (law, constants): (&str, &str), scheme: &str) -> String {
     let all = |entry: &str| vec![entry; dimension].join(", ");
     let up = ["x", "y", "z"][dimension - 1];
     let rollers = ["x", "y", "z"][..dimension].iter().map(|axis| {

@@ -136,3 +136,44 @@ fn strength_with_friction_is_divided() {
         assert_eq!(SceneFile::read(&path, 2.0, None).is_ok(), begins, "{k0}");
     }
 }
+
+/// A table with the stress that `k0` gives makes the same scene; a part of it alone, or with `k0`, is refused.
+#[test]
+fn a_table_gives_the_stress_at_the_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let begin = LEVEL.find("[[bodies]]").unwrap();
+    let end = LEVEL.find("[[loads]]").unwrap();
+    let layer = format!("{}{}", &LEVEL[..begin], &LEVEL[end..]);
+    std::fs::write(&path, &layer).unwrap();
+    let (_, particles) = rows_of(&path, 1);
+    let column = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    let names = ["x", "y", "stress_xx", "stress_yy", "stress_zz", "stress_xy"];
+    let units = ["m", "m", "Pa", "Pa", "Pa", "Pa"];
+    let write = |count: usize| {
+        let head: Vec<String> = names.iter().zip(units).map(|(name, unit)| format!("{name} ({unit})")).collect();
+        let row =
+            |k: usize| names[..count].iter().map(|name| column(name)[k].to_string()).collect::<Vec<_>>().join(",");
+        let rows: Vec<String> = (0..column("x").len()).map(row).collect();
+        std::fs::write(folder.path().join("own.csv"), head[..count].join(",") + "\n" + &rows.join("\n") + "\n")
+            .unwrap();
+    };
+    write(6);
+    let shape = "box = { from_m = [0, 0], to_m = [4, 3] }";
+    let tabled = layer.replace(shape, "particles = { file = \"own.csv\" }");
+    let refused = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        SceneFile::read(&path, 1.0, None).err().unwrap().to_string()
+    };
+    assert!(refused(&tabled).contains("without k0"));
+    let own = tabled.replace("k0 = 0.5\n", "");
+    std::fs::write(&path, &own).unwrap();
+    let (rows, _) = rows_of(&path, 2);
+    assert_eq!(last(&rows, "displacement_max (m)"), 0.0);
+    write(4);
+    assert!(refused(&own).contains("no column \"stress_zz (Pa)\""));
+    // Without any stress it settles.
+    write(2);
+    std::fs::write(&path, &own).unwrap();
+    assert!(last(&rows_of(&path, 2).0, "displacement_max (m)") > 1e-3);
+}

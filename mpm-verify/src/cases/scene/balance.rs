@@ -1,0 +1,102 @@
+//! Balance of momentum and energy of an explicit run: what loads gave and supports took is what the bodies have.
+
+use super::form::LoadForm;
+use super::phase::Phase;
+use super::setup::{Setup, acts, components};
+use crate::cases::prelude::*;
+use mpm_core::stage::smooth_stroke;
+
+/// Momentum and kinetic energy at the start of a phase, and what the phases so far lack.
+#[derive(Default, Clone, Copy, Serialize, Deserialize)]
+pub(super) struct Balance {
+    momentum: [f64; 3],
+    kinetic: f64,
+    /// Momentum (N s) that nothing gave; the impulse of loads within a step, and that of all that acts.
+    lacking: [f64; 3],
+    step: f64,
+    passed: f64,
+    /// Kinetic energy (J) that nothing gave, and the energy that was moved.
+    gained: f64,
+    moved: f64,
+}
+
+/// Share of what is moved that is rounding of its sums.
+const ROUNDING: f64 = 1e-9;
+
+impl Balance {
+    /// Momentum that nothing gave, over what the loads give in a step: they are taken at one end of it.
+    pub(super) fn momentum(&self) -> f64 {
+        let lacking = self.lacking.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        if lacking == 0.0 { 0.0 } else { lacking / (self.step + ROUNDING * self.passed) }
+    }
+
+    /// Kinetic energy that nothing gave, over rounding of what was moved. Without it, transfers take energy, as the mass
+    /// is lumped.
+    pub(super) fn energy(&self) -> f64 {
+        if self.gained <= 0.0 { 0.0 } else { self.gained / (ROUNDING * self.moved) }
+    }
+
+    /// At the start of a phase.
+    pub(super) fn begin<const D: usize>(&mut self, run: &dyn Simulation<D>) {
+        let totals = run.totals();
+        (self.momentum, self.kinetic) = (totals.momentum, totals.kinetic_energy);
+        self.moved += totals.kinetic_energy;
+        self.passed += totals.momentum.iter().map(|p| p.abs()).sum::<f64>();
+    }
+
+    /// At the end of a phase, in which loads gave an `impulse` (N s).
+    fn end<const D: usize>(&mut self, run: &dyn Simulation<D>, impulse: [f64; D], held: [usize; 2]) {
+        let (totals, done) = (run.totals(), run.totals().accumulated);
+        let [constraints, contacts] = held;
+        let parts = (0..constraints).map(Part::Constraint).chain((0..contacts).map(Part::Contact));
+        let taken: Vec<[f64; 3]> = parts.map(|part| run.on(part).impulse).collect();
+        for a in 0..D {
+            let taken: f64 = taken.iter().map(|impulse| impulse[a]).sum();
+            self.passed += taken.abs() + impulse[a].abs();
+            self.lacking[a] += totals.momentum[a] - self.momentum[a] + taken - impulse[a];
+        }
+        let losses = done.damping + done.constraint_loss + done.filter_loss;
+        self.gained += totals.kinetic_energy - self.kinetic + done.stress_work - done.load_work + losses;
+        self.moved += done.stress_work.abs() + done.load_work.abs() + losses.abs();
+    }
+}
+
+impl<const D: usize> Setup<D> {
+    /// Ends a phase in a balance; one with local damping, whose work is taken at the velocity before a step, is left out.
+    pub(super) fn balance(&self, phase: &Phase, run: &dyn Simulation<D>, balance: &mut Balance) {
+        if phase.damping > 0.0 {
+            return;
+        }
+        let (mass, time) = (run.totals().mass, run.time());
+        let mut impulse = [0.0; D];
+        for load in &self.form.loads {
+            let (force, rise) = match load.get_ref() {
+                LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, &phase.name) => {
+                    (components::<D>(acceleration_m_s2).map(|g| g * mass), rise_s.0)
+                }
+                LoadForm::Force { total_n, rise_s, phases, .. } if acts(phases, &phase.name) => {
+                    (components(total_n), rise_s.0)
+                }
+                _ => continue,
+            };
+            for (sum, force) in impulse.iter_mut().zip(force) {
+                *sum += force * smooth_stroke(time, rise);
+                balance.step += f64::abs(force) * phase.dt;
+            }
+        }
+        let [supports, contacts, _] = self.parts(&phase.name);
+        balance.end(run, impulse, [supports.len(), contacts.len()]);
+    }
+
+    /// Why momentum and energy of a run are not balanced, if they are not.
+    pub(super) fn unbalanced(&self) -> [Option<&'static str>; 2] {
+        let damped = self.phases.iter().all(|phase| phase.damping > 0.0);
+        let stopped = self.form.solver.get_ref().kinetic_damping == Some(true);
+        match self.scheme {
+            Scheme::Explicit(_) if damped => [Some("every phase has local damping"); 2],
+            Scheme::Explicit(_) if stopped => [Some("kinetic damping takes momentum"), None],
+            Scheme::Explicit(_) => [None; 2],
+            _ => [Some("an implicit scheme has no impulses"), Some("an implicit scheme balances it within its step")],
+        }
+    }
+}
