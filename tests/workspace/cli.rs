@@ -230,9 +230,7 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
 }
 
 #[test]
-fn list_and_explain_name_everything() {
-    let text = stdout(&mpm_verify(&["list"]));
-    assert!(text.contains("cook") && text.contains("Cook's membrane"));
+fn list_names_everything() {
     let runs = stdout(&mpm_verify(&["list", "--tier", "quick"]));
     assert!(runs.contains("cook gimp-none-flip/h2\n"), "{runs}");
     let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
@@ -240,21 +238,6 @@ fn list_and_explain_name_everything() {
     assert_eq!(cases[0]["case"], "cook");
     assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 27);
     assert_eq!(cases[0]["tier"], "pr");
-
-    let text = stdout(&mpm_verify(&["explain", "cook"]));
-    for part in [
-        "poisson_ratio",
-        "0 to below 0.5",
-        "bspline3-fbar-recursive-flip",
-        "h0.25",
-        "mid_edge_uy",
-        "creep_rate",
-        "known limit",
-        "0.276467",
-        "Limits",
-    ] {
-        assert!(text.contains(part), "{part} is missing in explain");
-    }
 }
 
 /// The parameters that `explain` lists for a case, with their defaults.

@@ -4,17 +4,18 @@
 
 use super::cli_syntax::Cli;
 use super::scene::{RUN, Scene, one_case};
-use super::{copy_tree, golden, json, workspace};
+use super::{code, copy_tree, golden, json, stderr, text, workspace};
 use clap::Parser;
 use cpu_time::ThreadTime;
 use mpm_verify::cases;
+use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::files::{Mark, read_picture};
 use mpm_verify::golden::Golden;
 use mpm_verify::parameter::{Parameters, Value};
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::keep::keep;
-use mpm_verify::report::scored::{Ours, text};
+use mpm_verify::report::scored::{self, Ours};
 use mpm_verify::run::checkpoint::{Checkpoint, Identity, Keeper};
 use mpm_verify::score::Scores;
 use mpm_verify::study::complete::Completeness;
@@ -30,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Damaged formats, and the share of the inputs each gets.
-const FAMILIES: [(&str, usize); 15] = [
+const FAMILIES: [(&str, usize); 16] = [
     ("record", 10),
     ("series and particles", 8),
     ("plan", 8),
@@ -45,7 +46,8 @@ const FAMILIES: [(&str, usize); 15] = [
     ("tables of a result", 2),
     ("grid of a result", 3),
     ("parameters", 10),
-    ("command line", 10),
+    ("command line", 9),
+    ("scene file", 1),
 ];
 
 /// Inputs of the tests.
@@ -309,7 +311,7 @@ fn a_damaged_result_of_another_code_is_refused_or_judged() {
     let score = || {
         if let Ok(scored) = Scores::read(folder.path()) {
             let ours = Ours::beside(&scored).unwrap();
-            assert!(!text(&scored, &ours).replace("\x1b[", "").contains('\x1b'));
+            assert!(!scored::text(&scored, &ours).replace("\x1b[", "").contains('\x1b'));
         }
     };
     fs::write(&manifest, of("particles.csv")).unwrap();
@@ -357,6 +359,21 @@ fn a_command_line_is_read_or_refused() {
     check("command line", &vec(word, 0..9), |words: &Vec<String>| {
         let program = std::iter::once("mpm-verify".to_owned());
         let _ = Cli::try_parse_from(program.chain(words.iter().cloned()));
+    });
+}
+
+#[test]
+fn a_damaged_scene_file_ends_the_program_in_one_message() {
+    let folder = tempfile::tempdir().unwrap();
+    let [path, out] = ["own.toml", "out"].map(|name| folder.path().join(name));
+    fs::copy(workspace().join("mpm-verify/scenes/slope.toml"), &path).unwrap();
+    damage("scene file", &path, |_| {
+        if SceneFile::read(&path, 1.0, Some(1e7)).is_err() {
+            let ended = super::mpm_verify(&["scene", text(&path), "--memory", "0.0093", "--out", text(&out)]);
+            let said = stderr(&ended);
+            let one = said.starts_with("error: ") && said.lines().count() == 1;
+            assert!(code(&ended) == 2 && one && !out.exists(), "{said}");
+        }
     });
 }
 
