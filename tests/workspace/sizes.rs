@@ -5,10 +5,10 @@ use std::path::Path;
 
 /// Part, its folder, lines of its tests included or not, and most lines.
 const BOUNDS: [(&str, &str, bool, usize); 8] = [
-    ("the harness without tests", "mpm-verify/src", false, 45_100),
-    ("its cases without tests", "mpm-verify/src/cases", false, 25_800),
-    ("its reports without tests", "mpm-verify/src/report", false, 5_100),
-    ("its drawing without tests", "mpm-verify/src/draw", false, 2_600),
+    ("the harness without tests", "mpm-verify/src", false, 45_080),
+    ("its cases without tests", "mpm-verify/src/cases", false, 25_720),
+    ("its reports without tests", "mpm-verify/src/report", false, 5_050),
+    ("its drawing without tests", "mpm-verify/src/draw", false, 2_590),
     ("terzaghi", "mpm-verify/src/cases/terzaghi", true, 500),
     ("the footing", "mpm-verify/src/cases/footing", true, 1_800),
     ("tests of the workspace", "tests/workspace", true, 4_750),
