@@ -145,8 +145,8 @@ impl Speed {
     }
 }
 
-/// Ratio of the cost of F̄ to that of standard MPM, if both have been run and one reaches the target; infinite is the cost
-/// of what does not reach it.
+/// Ratio of the cost of F̄ to that of standard MPM, if both have been run and one reaches the target; a scheme that misses
+/// the target costs infinitely much.
 fn ratio(prices: &Prices) -> Option<f64> {
     if !(prices.has(OURS) && prices.has(STANDARD)) {
         return None;

@@ -10,6 +10,7 @@ mod moves;
 mod pairs;
 mod random;
 mod soil;
+mod told;
 mod weights;
 
 fn shipped(name: &str) -> PathBuf {
@@ -256,6 +257,13 @@ fn pictures_tell_title_phase_and_time_and_show_bodies_and_supports() {
     let pushes =
         "nodes = { name = \"n\", within = { x_m = [0, 1], y_m = [0, 5] }, velocity_m_s = { x = 0.2 }, moves = true }";
     std::fs::write(&path, std::fs::read_to_string(shipped("slope.toml")).unwrap().replace(BACK, pushes)).unwrap();
+    let text = std::fs::read_to_string(&path).unwrap();
+    let base = "end = \"lo\", kind = \"fixed\"";
+    let own = folder.path().join("first.toml");
+    std::fs::write(&own, text.replace(base, &format!("{base}, phases = [\"weight\"]"))).unwrap();
+    let first = SceneFile::read(&own, 1.0, None).unwrap().case.scenery.unwrap();
+    let held = |time: f64| (first.around)(time).iter().filter(|(_, is_support)| *is_support).count();
+    assert_eq!([held(0.5), held(2.0)], [3, 2]);
     let scenery = SceneFile::read(&path, 1.0, None).unwrap().case.scenery.unwrap();
     let heading = |time: f64| (scenery.heading)(time);
     assert_eq!(heading(scenery.end), "A bank of soft clay slides: slide, t = 4 s");

@@ -178,7 +178,7 @@ pub(super) struct Table {
 
 impl From<Sheet> for Table {
     fn from(sheet: Sheet) -> Self {
-        // What looks like a number stands to the right.
+        // Numbers stand to the right.
         let is_number = |text: &str| text.starts_with(|c| "0123456789-−–≤≥~".contains(c)) || text == "never";
         let row = |row: &Vec<String>| {
             let rest = row.iter().skip(1).map(|text| Cell::of(&**text, if is_number(text) { "num" } else { "" }));
