@@ -58,7 +58,7 @@ pub(super) fn checks(mass: f64, weight: f64, unbalanced: [Option<&'static str>; 
         }
     };
     let [no_momentum, no_energy] = unbalanced;
-    let momentum = at_most(MOMENTUM, no_momentum, "loads are taken at one end of a step");
+    let momentum = at_most(MOMENTUM, no_momentum, "nodes hand on what they are given: sums round");
     let energy = at_most(ENERGY, no_energy, "a transfer with a lumped mass gives no energy");
     vec![
         watched("mass", "The mass stays what it was.", Box::new(kept)),

@@ -22,7 +22,7 @@ metrics! { pub(super) ALL:
     J_MIN = "jacobian_min", "-", "least J of a particle";
     J_MAX = "jacobian_max", "-", "greatest J of a particle";
     VOLUME = "volume_change_max", "-", "largest |J − 1| of a particle of a nearly incompressible body";
-    MOMENTUM = "momentum_gap", "-", "momentum that nothing gave, over what the loads give in a step";
+    MOMENTUM = "momentum_gap", "-", "momentum that nothing gave, over the rounding of what passed";
     ENERGY = "energy_gain", "-", "kinetic energy that nothing gave, over the rounding of what was moved";
     STRESS_MIN = "mean_stress_least", "Pa", "least mean normal stress of a particle, tension positive";
     STRESS_MAX = "mean_stress_greatest", "Pa", "greatest mean normal stress of a particle";
