@@ -31,7 +31,7 @@ fn body<const S: usize, B: Basis<S>>() -> Parts<S, B> {
     let particles = Particles::new(positions, 0.25, 1.0, [0.25; 2]);
     let (Ok(grid), Ok(mut particles)) = (grid, particles) else { unreachable!("the scene is fixed and valid") };
     let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
-    let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
+    let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size, false);
     particles.permute(&order);
     (lattice, particles, slabs)
 }

@@ -234,8 +234,9 @@ impl<const D: usize> Bodies<D> {
         sums: &mut &'a mut [T],
     ) -> ((Chunk<'_, D>, P), &'a mut [T]) {
         let chunk = self.chunk(body);
-        let own = sums.split_off_mut(..chunk.len().div_ceil(CHUNK)).unwrap_or_default();
-        let other = other.front(1, chunk.len());
+        let pieces = chunk.len().div_ceil(CHUNK);
+        let own = sums.split_off_mut(..pieces).unwrap_or_default();
+        let other = other.front(pieces, chunk.len());
         ((chunk, other), own)
     }
 
@@ -416,23 +417,23 @@ impl<const D: usize> Chunk<'_, D> {
 }
 
 impl<const D: usize> Front for Chunk<'_, D> {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
+    fn front(&mut self, pieces: usize, entries: usize) -> Self {
         let begin = self.begin;
-        self.begin += self.len().min(pieces * size);
+        self.begin += self.len().min(entries);
         Self {
             law: self.law,
             begin,
-            states: self.states.front(pieces, size),
-            position: self.position.front(pieces, size),
-            velocity: self.velocity.front(pieces, size),
-            affine: self.affine.front(pieces, size),
-            volume: self.volume.front(pieces, size),
-            jacobian: self.jacobian.front(pieces, size),
-            j_bar: self.j_bar.front(pieces, size),
-            stress: self.stress.front(pieces, size),
-            increment: self.increment.front(pieces, size),
-            reference_volume: self.reference_volume.front(pieces, size),
-            external_force: self.external_force.front(pieces, size),
+            states: self.states.front(pieces, entries),
+            position: self.position.front(pieces, entries),
+            velocity: self.velocity.front(pieces, entries),
+            affine: self.affine.front(pieces, entries),
+            volume: self.volume.front(pieces, entries),
+            jacobian: self.jacobian.front(pieces, entries),
+            j_bar: self.j_bar.front(pieces, entries),
+            stress: self.stress.front(pieces, entries),
+            increment: self.increment.front(pieces, entries),
+            reference_volume: self.reference_volume.front(pieces, entries),
+            external_force: self.external_force.front(pieces, entries),
         }
     }
 }

@@ -107,6 +107,16 @@ impl<const D: usize> Grid<D> {
         Ok(Self { h, axes })
     }
 
+    /// Number of cells.
+    pub fn cells(&self) -> usize {
+        self.axes.iter().map(|axis| axis.cells).product()
+    }
+
+    /// Number of the cell that holds `x` (m), clamped to the grid; the last axis varies fastest.
+    pub fn cell_of(&self, x: &[f64; D]) -> usize {
+        (0..D).fold(0, |number, a| number * self.axes[a].cells + self.cell(a, x[a]))
+    }
+
     /// Index of the cell along `axis` that holds coordinate `x` (m), clamped to the grid.
     pub fn cell(&self, axis: usize, x: f64) -> usize {
         let a = &self.axes[axis];

@@ -12,18 +12,22 @@ use std::ops::Range;
 pub type Slabs = Vec<Range<usize>>;
 
 /// The order of particles at `positions` (m) with half sizes `half_size` (m), stable where nothing tells them apart,
-/// and the range of every slab of [`SLAB`] cells along the first axis.
+/// and the range of every slab of [`SLAB`] cells along the first axis; on request those of a cell stand side by side.
 pub fn stencil_order<const D: usize, const S: usize, B: Basis<S>>(
     lattice: &Lattice<D, S, B>,
     positions: &[[f64; D]],
     half_size: &[f64; D],
+    by_cell: bool,
 ) -> (Vec<u32>, Slabs) {
     let grid = &lattice.grid;
     let mut first_node = vec![0; positions.len()];
     lattice.for_each_first_node(positions, half_size, |p, first| first_node[p] = first);
     let slab = |p: u32| grid.cell(0, positions[p as usize][0]) / SLAB;
     let order = (0..positions.len() as u32).collect();
-    let (order, _) = sort(order, lattice.len(), |p| first_node[p as usize]);
+    let (mut order, _) = sort(order, lattice.len(), |p| first_node[p as usize]);
+    if by_cell {
+        (order, _) = sort(order, grid.cells(), |p| grid.cell_of(&positions[p as usize]));
+    }
     let (order, begin) = sort(order, grid.axes[0].cells.div_ceil(SLAB), slab);
     let slabs = begin.windows(2).map(|pair| pair[0]..pair[1]).collect();
     (order, slabs)

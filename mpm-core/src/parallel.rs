@@ -37,28 +37,28 @@ fn join(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
 
 /// Columns that threads share in pieces.
 pub trait Front: Send {
-    /// Takes off the first `pieces` pieces of `size` entries, or all if there are fewer.
+    /// Takes off the first `pieces` pieces, of `entries` together, or all if there are fewer.
     #[must_use]
-    fn front(&mut self, pieces: usize, size: usize) -> Self;
+    fn front(&mut self, pieces: usize, entries: usize) -> Self;
 }
 
 impl<T: Send> Front for &mut [T] {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
-        let n = self.len().min(pieces * size);
+    fn front(&mut self, _pieces: usize, entries: usize) -> Self {
+        let n = self.len().min(entries);
         self.split_off_mut(..n).unwrap_or_default()
     }
 }
 
 impl<T: Sync> Front for &[T] {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
-        let n = self.len().min(pieces * size);
+    fn front(&mut self, _pieces: usize, entries: usize) -> Self {
+        let n = self.len().min(entries);
         self.split_off(..n).unwrap_or_default()
     }
 }
 
 impl<A: Front, B: Front> Front for (A, B) {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
-        (self.0.front(pieces, size), self.1.front(pieces, size))
+    fn front(&mut self, pieces: usize, entries: usize) -> Self {
+        (self.0.front(pieces, entries), self.1.front(pieces, entries))
     }
 }
 
@@ -71,8 +71,8 @@ pub struct Rows<'a, T> {
 }
 
 impl<T: Send> Front for Rows<'_, T> {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
-        Self { entries: self.entries.front(pieces, size * self.width), width: self.width }
+    fn front(&mut self, pieces: usize, entries: usize) -> Self {
+        Self { entries: self.entries.front(pieces, entries * self.width), width: self.width }
     }
 }
 
@@ -80,7 +80,7 @@ impl<T: Send> Front for Rows<'_, T> {
 pub struct PerPiece<'a, T>(pub &'a mut [T]);
 
 impl<T: Send> Front for PerPiece<'_, T> {
-    fn front(&mut self, pieces: usize, _size: usize) -> Self {
+    fn front(&mut self, pieces: usize, _entries: usize) -> Self {
         let n = self.0.len().min(pieces);
         Self(self.0.split_off_mut(..n).unwrap_or_default())
     }
@@ -88,7 +88,7 @@ impl<T: Send> Front for PerPiece<'_, T> {
 
 /// `visit(first, piece)` for every piece of `size` entries of columns that have `n`; the piece begins at `first`.
 pub fn for_each_piece<P: Front>(all: P, n: usize, size: usize, visit: &(impl Fn(usize, P) + Sync)) {
-    in_pieces(all, 0..n.div_ceil(size), size, visit);
+    in_pieces(all, 0..n.div_ceil(size), &|k| k * size, visit);
 }
 
 /// `of(k)` of every `k` below `n`, in order; `size` of them are a piece.
@@ -116,34 +116,46 @@ fn of_pieces<T: Send>(n: usize, size: usize, of: &(dyn Fn(Range<usize>) -> Vec<T
     all
 }
 
-fn in_pieces<P: Front>(mut all: P, pieces: Range<usize>, size: usize, visit: &(impl Fn(usize, P) + Sync)) {
+/// `visit(first, piece)` for these `pieces`; piece `k` begins at entry `at(k)` and ends where the next one begins.
+pub fn in_pieces<P: Front>(
+    mut all: P,
+    pieces: Range<usize>,
+    at: &(impl Fn(usize) -> usize + Sync),
+    visit: &(impl Fn(usize, P) + Sync),
+) {
     if pieces.len() > AT_ONCE {
         let middle = pieces.start + pieces.len() / 2;
-        let mut before = Some(all.front(middle - pieces.start, size));
+        let mut before = Some(all.front(middle - pieces.start, at(middle) - at(pieces.start)));
         let mut after = Some(all);
         join(
             &mut || {
                 if let Some(front) = before.take() {
-                    in_pieces(front, pieces.start..middle, size, visit);
+                    in_pieces(front, pieces.start..middle, at, visit);
                 }
             },
             &mut || {
                 if let Some(rest) = after.take() {
-                    in_pieces(rest, middle..pieces.end, size, visit);
+                    in_pieces(rest, middle..pieces.end, at, visit);
                 }
             },
         );
     } else {
         for piece in pieces {
-            visit(piece * size, all.front(1, size));
+            visit(at(piece), all.front(1, at(piece + 1) - at(piece)));
         }
     }
 }
 
-/// `visit(piece, sums)` for pieces of [`CHUNK`] particles and what is summed over each.
-pub fn for_each_chunk<P: Front, T: Send>(all: P, sums: &mut [T], visit: &(impl Fn(P, &mut T) + Sync)) {
-    let n = sums.len() * CHUNK;
-    for_each_piece((all, PerPiece(sums)), n, CHUNK, &|_, (piece, sums)| {
+/// `visit(piece, sums)` for pieces of the particles of a body and what is summed over each; piece `k` begins at the
+/// particle `at(k)` of the body.
+pub fn for_each_chunk<P: Front, T: Send>(
+    all: P,
+    sums: &mut [T],
+    at: &(impl Fn(usize) -> usize + Sync),
+    visit: &(impl Fn(P, &mut T) + Sync),
+) {
+    let n = sums.len();
+    in_pieces((all, PerPiece(sums)), 0..n, at, &|_, (piece, sums)| {
         if let Some(sums) = sums.0.first_mut() {
             visit(piece, sums);
         }

@@ -3,7 +3,9 @@
 //! (Πq)_p = Σ_i w_ip q_i with q_i = Σ_p w_ip V_p q_p / V_i and V_i = Σ_p w_ip V_p. It reproduces
 //! constants, V Π is symmetric, and its eigenvalues lie in \[0, 1\].
 
+mod blocks;
 mod patch;
+mod patches;
 
 use crate::basis::{BSpline, Basis, WallTreatment};
 use crate::bodies::Body;
@@ -13,7 +15,9 @@ use crate::parallel::{CHUNK, NODE_CHUNK, for_each_piece, scatter};
 use crate::particles::Particles;
 use crate::reach::Reach;
 use crate::work::Work;
+use blocks::Blocks;
 use patch::{Patch, ROW};
+pub use patches::Patches;
 use std::ops::Range;
 
 /// Something that averages a particle field.
@@ -33,6 +37,11 @@ pub enum Onto {
     Hats,
     /// Constants of a cell. They don't overlap, so that Π² = Π.
     Cells,
+    /// Linear functions on blocks of two cells along each axis, by least squares: Π² = Π.
+    Blocks,
+    /// Constants of the particles that shared a cell when they were last sorted: Π² = Π, and averages that a step takes in
+    /// the one pass over its particles.
+    Patches,
 }
 
 /// A space of functions that fields of the particles of a body are averaged with; those of others are left alone.
@@ -46,6 +55,16 @@ pub trait Space<const D: usize>: Average<D> + Send {
 
     /// Pairs of a particle and a function in an average.
     fn pairs(&self) -> u64;
+
+    /// The patches, if its functions are theirs.
+    fn patches(&self) -> Option<&Patches> {
+        None
+    }
+
+    /// The same, to be found anew.
+    fn patches_mut(&mut self) -> Option<&mut Patches> {
+        None
+    }
 }
 
 /// Averages on a lattice. Weights and nodal volumes serve all averages until the particles move or change their
@@ -79,6 +98,8 @@ pub fn space<const D: usize, const S: usize, B: Basis<S>>(
         None | Some(Onto::Basis) => Box::new(Averaging::<D, S, B>::new(Lattice::new(grid, wall))),
         Some(Onto::Hats) => Box::new(Averaging::<D, 2, BSpline<2>>::new(Lattice::new(grid, wall))),
         Some(Onto::Cells) => Box::new(Averaging::<D, 1, BSpline<1>>::new(Lattice::new(grid, WallTreatment::OpenKnot))),
+        Some(Onto::Blocks) => Box::new(Blocks::new(&grid)),
+        Some(Onto::Patches) => Box::new(Patches::default()),
     }
 }
 

@@ -10,6 +10,7 @@ use crate::memory::{Memory, MemoryError, Saved, require, restore_all, save_all};
 use crate::order::Slabs;
 use crate::parallel::SLAB;
 use crate::particles::Particles;
+use crate::projection::Patches;
 use crate::scene::SavedStages;
 use std::ops::Range;
 
@@ -49,13 +50,21 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// The bodies and how they are sorted.
     pub(super) fn save_body(&self) -> Result<Saved, MemoryError> {
         let slabs: Vec<_> = self.fields.iter().map(|field| &field.slabs).collect();
-        Saved::of(&(self.scene.bodies.save()?, slabs, self.drift))
+        let patches: Vec<_> = self.spaces.iter().map(|space| space.patches().map(Patches::ends)).collect();
+        Saved::of(&(self.scene.bodies.save()?, slabs, patches, self.drift))
     }
 
     /// Replaces the bodies by those that were saved.
     pub(super) fn restore_body(&mut self, saved: &Saved) -> Result<(), MemoryError> {
-        let (bodies, slabs, drift): (Saved, Vec<Vec<Slabs>>, f64) = saved.read("bodies")?;
+        type All = (Saved, Vec<Vec<Slabs>>, Vec<Option<Vec<usize>>>, f64);
+        let (bodies, slabs, patches, drift): All = saved.read("bodies")?;
         let (grid, fields, each) = (self.scene.grid, &self.fields, &self.scene.bodies.each);
+        MemoryError::unless_equal("bodies with averages", patches.len(), each.len())?;
+        let patches = patches.into_iter().zip(&self.spaces).zip(each).map(|((ends, space), body)| {
+            let ends = space.patches().map(|_| ends.unwrap_or_default());
+            ends.map(|ends| Patches::saved(ends, body.range())).transpose()
+        });
+        let patches = patches.collect::<Result<Vec<_>, _>>()?;
         let mut checks = Vec::new();
         MemoryError::unless_equal("velocity fields", slabs.len(), fields.len())?;
         for (field, saved) in fields.iter().zip(&slabs) {
@@ -70,6 +79,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         })?;
         for (field, slabs) in self.fields.iter_mut().zip(slabs) {
             field.slabs = slabs;
+        }
+        for (space, patches) in self.spaces.iter_mut().zip(patches) {
+            if let (Some(own), Some(patches)) = (space.patches_mut(), patches) {
+                *own = patches;
+            }
         }
         self.drift = drift;
         self.wave_modulus = self.scene.bodies.wave_moduli();

@@ -34,7 +34,7 @@ use crate::simulation::{Field, Simulation};
 use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
 use between::Touching;
-use remedy::Deformation;
+use remedy::{Columns, Deformation};
 use second_half::SecondHalf;
 use transfer::Flip;
 
@@ -50,6 +50,8 @@ struct ChunkSums {
     /// Greatest moduli ρ₀ c² of waves (Pa), lane by lane.
     wave_modulus: Eight,
     wrapped: bool,
+    /// How often the remedy averaged.
+    averages: u64,
     /// The first particle that has no volume, and the first that cannot go where it should; by place in the columns.
     collapsed: Option<(usize, Fault)>,
     astray: Option<(usize, Fault)>,
@@ -120,8 +122,9 @@ pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     amplitudes: Vec<f64>,
     /// Cells by which the nodes that they hold have moved on.
     shifts: Vec<[f64; D]>,
-    /// The mean stress of every particle that enters the forces of a step (Pa); empty where that is the law's.
-    force_mean: Vec<f64>,
+    /// What the remedy fills; the mean stress there is that of the step, if it is current.
+    columns: Columns,
+    mean_is_current: bool,
     /// Between G2P and the law.
     deformation: Deformation<D>,
     /// The step of every body after G2P.
@@ -172,7 +175,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Simulation<D> 
         self.ledger.work = work;
         let p = &self.scene.bodies.particles;
         let mut stress = p.stress.clone();
-        let columns = stress.iter_mut().zip(&self.force_mean);
+        let columns = stress.iter_mut().zip(&self.columns.mean);
         for ((stress, mean), (j_bar, j)) in columns.zip(p.j_bar.iter().zip(&p.jacobian)) {
             *stress = remedy::force_stress::<f64, D>(stress, j_bar / j, *mean);
         }

@@ -1,10 +1,10 @@
 //! Second half of a particle's step, once ΔF is known: law, volume and position, eight particles at a time.
 
-use super::remedy::force_stress;
+use super::remedy::{DeformationChunk, Known, force_stress};
 use super::{ChunkSums, check_cfl};
 use crate::basis::Basis;
 use crate::bodies::Chunk;
-use crate::eights::{Eights, block, components, entries, numbers, store_numbers, store_vectors};
+use crate::eights::{AHEAD, Eights, block, blocks, components, entries, numbers, store_numbers, store_vectors};
 use crate::grid::Grid;
 use crate::number::{EIGHT, Eight, Lanes};
 use crate::particles::Particles;
@@ -54,18 +54,27 @@ impl<'a> ForceStress<'a> {
     }
 }
 
-/// The same of the `k`-th eight of a chunk, with the `mean` of all particles.
+/// The same of the `k`-th eight of a chunk, with the `mean` of its particles.
 #[inline(always)]
 pub(super) fn force_stress_of<const D: usize>(p: &Chunk<'_, D>, mean: &[f64], k: usize) -> SymmetricTensor<Eight> {
     let mut spare = None;
     let stress = block(p.stress, k, &mut spare);
     let stress = SymmetricTensor::pack(|l| stress[l]);
-    match mean.get(p.begin..p.begin + p.len()) {
-        Some(mean) => {
-            let ratio = numbers(p.j_bar, k) / numbers(p.jacobian, k);
-            force_stress::<Eight, D>(&stress, ratio, numbers(mean, k))
-        }
-        None => stress,
+    if mean.is_empty() {
+        return stress;
+    }
+    let ratio = numbers(p.j_bar, k) / numbers(p.jacobian, k);
+    force_stress::<Eight, D>(&stress, ratio, numbers(mean, k))
+}
+
+/// What a remedy averages of a chunk.
+pub(super) fn known<'a, const D: usize>(p: &'a Chunk<'_, D>, deformation: &'a DeformationChunk<'_, D>) -> Known<'a> {
+    Known {
+        stress: p.stress,
+        jacobian: p.jacobian,
+        j_bar: p.j_bar,
+        volume_change: deformation.volume_change,
+        shear: deformation.shear,
     }
 }
 
@@ -83,6 +92,26 @@ impl<const D: usize> SecondHalf<D> {
     /// given reference density (kg/m³).
     pub(super) fn of<const S: usize, B: Basis<S>>(grid: &Grid<D>, dt: f64, density: f64, half_size: &[f64; D]) -> Self {
         Self { dt, h: grid.h, room: Room::new(grid, half_size.map(B::beyond_wall)), reach: dt * dt / density }
+    }
+
+    /// That of all particles of a chunk, by the deformation that was kept, and J̄ⁿ⁺¹ if it is `next`.
+    pub(super) fn finish_all(
+        &self,
+        p: &mut Chunk<'_, D>,
+        deformation: &DeformationChunk<'_, D>,
+        next: &[f64],
+        sums: &mut ChunkSums,
+    ) {
+        for k in 0..blocks(p.len()) {
+            p.fetch_second_half(k + AHEAD);
+            let mut delta_f = deformation.raw(k);
+            if !next.is_empty() {
+                let (j_bar, next) = (numbers(p.j_bar, k), numbers(next, k));
+                store_numbers(p.j_bar, k, next);
+                delta_f = deformation.averaged(k, j_bar, next);
+            }
+            self.finish(p, k, &delta_f, &deformation.increment(k), sums);
+        }
     }
 
     /// Stress, state and volume, Eqs. (15), (22), and position, Eq. (17), of the `k`-th eight of a chunk that deform by

@@ -33,7 +33,8 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         for field in &mut self.fields {
             for (body, slabs) in field.bodies.iter().zip(&mut field.slabs) {
                 let (p, range) = (&bodies.particles, bodies.each[*body].range());
-                let (own, here) = stencil_order(&self.lattice, &p.position[range.clone()], &p.half_size);
+                let by_cell = self.spaces[*body].patches().is_some();
+                let (own, here) = stencil_order(&self.lattice, &p.position[range.clone()], &p.half_size, by_cell);
                 *slabs = here.into_iter().map(|slab| slab.start + range.start..slab.end + range.start).collect();
                 for (place, from) in order[range.clone()].iter_mut().zip(own) {
                     *place = range.start as u32 + from;
@@ -41,6 +42,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             }
         }
         self.scene.bodies.permute(&order);
+        for (space, body) in self.spaces.iter_mut().zip(&self.scene.bodies.each) {
+            if let Some(patches) = space.patches_mut() {
+                patches.find(&self.scene.grid, &self.scene.bodies.particles, body.range());
+            }
+        }
         self.drift = 0.0;
         self.ledger.work.sorts += 1;
         self.find_reach();
@@ -49,6 +55,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// Finds the nodes that the particles see, and the particles that may touch a rigid body, until they are sorted
     /// again.
     pub(super) fn find_reach(&mut self) {
+        self.mean_is_current = false;
         let p = &self.scene.bodies.particles;
         for contact in &mut self.scene.contacts {
             contact.find_near(self.ledger.time, MOTION * self.scene.grid.h, p);

@@ -1,6 +1,7 @@
 //! The stages of the explicit step, in its order.
 
-use super::second_half::{ForceStress, force_stress_of};
+use super::remedy::Known;
+use super::second_half::{ForceStress, force_stress_of, known};
 use super::transfer::{Given, Received, Transfer};
 use super::{ChunkSums, NodeSums, Solver, VelocityField};
 use crate::basis::Basis;
@@ -11,8 +12,8 @@ use crate::lattice::{Lattice, Stencils};
 use crate::monitor::Residual;
 use crate::nodes::{NodalState, Node, padded};
 use crate::number::{EIGHT, Eight};
-use crate::parallel::{NODE_CHUNK, PerPiece, for_each_chunk, for_each_piece, scatter_all};
-use crate::projection::Projection;
+use crate::parallel::{CHUNK, NODE_CHUNK, PerPiece, for_each_chunk, for_each_piece, scatter_all};
+use crate::projection::{Average, Projection};
 use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
 
@@ -60,7 +61,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// Mass, momentum and forces to the nodes, Eqs. (7), (8), (10).
     pub(super) fn particles_to_grid(&mut self) {
         let lattice = &self.lattice;
-        let (p, force_mean) = (&self.scene.bodies.particles, &self.force_mean);
+        let (p, force_mean) = (&self.scene.bodies.particles, &self.columns.mean);
         for VelocityField { transfer, reach, slabs, nodes, .. } in &mut self.fields {
             reach.clear(nodes);
             scatter_all(nodes, lattice.plane(), slabs, |slab, nodes, origin| {
@@ -161,26 +162,32 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         }
     }
 
-    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16); in the same pass the
-    /// [`SecondHalf`](super::SecondHalf) of their step, unless the remedy averages before it.
+    /// Velocity, displacement, ΔF and J of the particles, Eqs. (11)–(14), (16). The same pass goes on with their
+    /// [`SecondHalf`](super::SecondHalf), unless what stands between needs it of all particles.
     pub(super) fn grid_to_particles(&mut self) -> Result<(), Error> {
         self.complete_nodes();
         let lattice = &self.lattice;
         let half_size = self.scene.bodies.particles.half_size;
         let dt = Eight::splat(self.settings.dt);
-        let force_mean = self.force_mean.as_slice();
         let mut passes = 0;
         for VelocityField { transfer, bodies, slabs, nodes, prescribed, .. } in &mut self.fields {
             let extra = transfer.prepare(lattice, &self.scene.bodies.particles, slabs, nodes, prescribed);
             let particles = bodies.iter().map(|body| self.scene.bodies.each[*body].range().len() as u64);
             passes += (1 + extra) * particles.sum::<u64>();
         }
-        let (mut deformation, mut sums) = (self.deformation.chunk(), &mut self.chunk_sums[..]);
+        let in_one_pass = self.averages_in_one_pass();
+        let remedy = self.settings.remedy.as_ref();
+        let mut columns = (self.deformation.chunk(), self.columns.all());
+        let mut sums = &mut self.chunk_sums[..];
         for (body, field) in self.field_of.iter().enumerate() {
             let VelocityField { transfer, nodes, .. } = &self.fields[*field];
             let second_half = &self.second_half[body];
-            let (all, own) = self.scene.bodies.part(body, &mut deformation, &mut sums);
-            for_each_chunk(all, own, &|(mut p, mut deformation), sums| {
+            let averages = self.scene.bodies.each[body].averages;
+            let patches = self.spaces[body].patches();
+            let at = |k| patches.map_or(k * CHUNK, |patches| patches.cut(k));
+            let begin = self.scene.bodies.each[body].range().start;
+            let (all, own) = self.scene.bodies.part(body, &mut columns, &mut sums);
+            for_each_chunk(all, own, &at, &|(mut p, (mut deformation, mut filled)), sums| {
                 *sums = ChunkSums::default();
                 let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
                 let mut stencils = Stencils::on(lattice);
@@ -206,7 +213,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                         store(p.affine, k, |l| affine[l]);
                     }
 
-                    let stress = force_stress_of(&p, force_mean, k);
+                    let stress = force_stress_of(&p, filled.mean, k);
                     let mut delta_f = [[Eight::ZERO; D]; D];
                     let mut increment = [Eight::ZERO; D];
                     let mut power = Eight::ZERO;
@@ -245,9 +252,28 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                 }
                 sums.stress_power = stress_power.reduce_add();
                 sums.load_power = load_power.reduce_add();
+                if let Some(patches) = patches.filter(|_| in_one_pass && sums.collapsed.is_none()) {
+                    let first = p.begin - begin;
+                    let mut count = 0;
+                    let mut mean = |volume: &[f64], field: &mut [f64]| {
+                        count += 1;
+                        if averages {
+                            patches.average(first, volume, field);
+                        }
+                    };
+                    let known = known(&p, &deformation);
+                    remedy.next_j_bar(known, &mut filled, &mut |field| mean(p.volume, field));
+                    second_half.finish_all(&mut p, &deformation, filled.next, sums);
+                    let known = self::known(&p, &deformation);
+                    remedy.force_mean(known, &mut filled, &mut |field| mean(p.volume, field));
+                    sums.averages = count;
+                }
             });
         }
         self.ledger.work.particle_node_pairs += passes * self.transfer_pairs;
+        if in_one_pass {
+            self.count_averages();
+        }
         for sums in &self.chunk_sums {
             self.ledger.accumulated.stress_work += self.settings.dt * sums.stress_power;
             self.ledger.accumulated.load_work += self.settings.dt * sums.load_power;
@@ -255,38 +281,56 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         self.first_fault()
     }
 
-    /// The mean stress of the forces, where the remedy has a share in it.
+    /// Whether averages need no more than one chunk of particles, and nothing else stands between G2P and the law.
+    fn averages_in_one_pass(&self) -> bool {
+        self.scene.contacts.is_empty() && self.spaces.iter().all(|space| space.patches().is_some())
+    }
+
+    /// Counts the averages of the pass.
+    fn count_averages(&mut self) {
+        let count = self.chunk_sums.first().map_or(0, |sums| sums.averages);
+        let averaging = self.spaces.iter().zip(&self.scene.bodies.each).filter(|(_, body)| body.averages);
+        self.ledger.work.projections += count;
+        self.ledger.work.particle_node_pairs += count * averaging.map(|(space, _)| space.pairs()).sum::<u64>();
+        self.mean_is_current = true;
+    }
+
+    /// The mean stress of the forces, where the remedy has a share in it; a pass over the particles leaves that of the
+    /// next step.
     pub(super) fn average_stress(&mut self) {
+        let in_one_pass = self.averages_in_one_pass();
+        if in_one_pass && self.mean_is_current {
+            return;
+        }
+        let before = self.ledger.work;
         let Bodies { particles, each } = &self.scene.bodies;
         let mut projection = Projection { spaces: &mut self.spaces, each, work: &mut self.ledger.work };
-        let remedy = &mut self.settings.remedy;
-        remedy.force_mean(particles, &mut projection, &mut self.force_mean);
+        let mut average = |field: &mut [f64]| projection.average(particles, field);
+        let known = Known::of(particles, &self.deformation);
+        self.settings.remedy.force_mean(known, &mut self.columns.all(), &mut average);
+        if in_one_pass {
+            // The average was counted in the step that ended.
+            (self.ledger.work, self.mean_is_current) = (before, true);
+        }
     }
 
     /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`](super::SecondHalf) of the
     /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
+        if self.averages_in_one_pass() || !self.deformation.chunk().is_there() {
+            return Ok(());
+        }
         let Bodies { particles, each } = &self.scene.bodies;
         let mut projection = Projection { spaces: &mut self.spaces, each, work: &mut self.ledger.work };
-        let next = self.settings.remedy.next_j_bar(particles, &self.deformation, &mut projection);
-        let (mut deformation, mut sums) = (self.deformation.chunk(), &mut self.chunk_sums[..]);
-        let there = deformation.is_there();
-        for (body, second_half) in self.second_half.iter().enumerate().filter(|_| there) {
-            let (all, own) = self.scene.bodies.part(body, &mut deformation, &mut sums);
-            for_each_chunk(all, own, &|(mut p, deformation), sums| {
-                let next = next.map(|next| &next[p.begin..p.begin + p.len()]);
-                for k in 0..blocks(p.len()) {
-                    p.fetch_second_half(k + AHEAD);
-                    let delta_f = match next {
-                        Some(next) => {
-                            let (j_bar, next) = (numbers(p.j_bar, k), numbers(next, k));
-                            store_numbers(p.j_bar, k, next);
-                            deformation.averaged(k, j_bar, next)
-                        }
-                        None => deformation.raw(k),
-                    };
-                    second_half.finish(&mut p, k, &delta_f, &deformation.increment(k), sums);
-                }
+        let mut average = |field: &mut [f64]| projection.average(particles, field);
+        let known = Known::of(particles, &self.deformation);
+        self.settings.remedy.next_j_bar(known, &mut self.columns.all(), &mut average);
+        let mut columns = (self.deformation.chunk(), self.columns.all());
+        let mut sums = &mut self.chunk_sums[..];
+        for (body, second_half) in self.second_half.iter().enumerate() {
+            let (all, own) = self.scene.bodies.part(body, &mut columns, &mut sums);
+            for_each_chunk(all, own, &|k| k * CHUNK, &|(mut p, (deformation, filled)), sums| {
+                second_half.finish_all(&mut p, &deformation, filled.next, sums);
             });
         }
         self.first_fault()

@@ -30,7 +30,7 @@ struct Bench<const D: usize, const S: usize, B> {
 impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
     fn new(grid: Grid<D>, mut particles: Particles<D>) -> Self {
         let lattice = Lattice::new(grid, WallTreatment::OpenKnot);
-        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
+        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size, true);
         particles.permute(&order);
         Self { lattice, particles, slabs }
     }
@@ -38,6 +38,9 @@ impl<const D: usize, const S: usize, B: Basis<S>> Bench<D, S, B> {
     fn averages(&self, onto: Onto) -> Box<dyn Space<D>> {
         let mut space = space::<D, S, B>(self.lattice.grid, WallTreatment::OpenKnot, Some(onto));
         space.find_reach(&self.particles, &self.slabs);
+        if let Some(patches) = space.patches_mut() {
+            patches.find(&self.lattice.grid, &self.particles, 0..self.particles.len());
+        }
         space
     }
 
@@ -61,6 +64,38 @@ fn deformation<const D: usize>(remedy: &dyn Remedy<D>, delta_f: &[SMatrix<f64, D
         }
     }
     deformation
+}
+
+/// What a remedy fills before the forces.
+fn forced<const D: usize>(remedy: &dyn Remedy<D>, particles: &Particles<D>, average: &mut dyn Space<D>) -> Columns {
+    let mut columns = remedy.columns(particles.len());
+    let at_rest = Deformation::default();
+    let known = Known::of(particles, &at_rest);
+    remedy.force_mean(known, &mut columns.all(), &mut |field| average.average(particles, field));
+    columns
+}
+
+/// J̄ⁿ⁺¹ after that.
+fn next_after<const D: usize>(
+    remedy: &dyn Remedy<D>,
+    particles: &Particles<D>,
+    deformation: &Deformation<D>,
+    average: &mut dyn Space<D>,
+    mut columns: Columns,
+) -> Vec<f64> {
+    let known = Known::of(particles, deformation);
+    remedy.next_j_bar(known, &mut columns.all(), &mut |field| average.average(particles, field));
+    columns.next
+}
+
+/// J̄ⁿ⁺¹ where nothing is held.
+fn next<const D: usize>(
+    remedy: &dyn Remedy<D>,
+    particles: &Particles<D>,
+    deformation: &Deformation<D>,
+    average: &mut dyn Space<D>,
+) -> Vec<f64> {
+    next_after(remedy, particles, deformation, average, remedy.columns(particles.len()))
 }
 
 /// Makes `next` the J̄ of the particles; returns ΔF̄.
@@ -89,7 +124,7 @@ fn scattered<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) -> (Bench<2, S, B
 }
 
 /// All functions that Π averages with.
-const ONTO: [Onto; 3] = [Onto::Basis, Onto::Hats, Onto::Cells];
+const ONTO: [Onto; 5] = [Onto::Basis, Onto::Hats, Onto::Cells, Onto::Blocks, Onto::Patches];
 
 fn properties<const S: usize, B: Basis<S>>(places: &[[f64; 4]]) {
     let (bench, q) = scattered::<S, B>(places);
@@ -116,7 +151,7 @@ fn properties_of<const S: usize, B: Basis<S>>(onto: Onto, bench: &Bench<2, S, B>
     // The volume integral of the field survives.
     let ones = vec![1.0; q.len()];
     near(product(&ones, &pq), product(&ones, q), "integral");
-    if onto == Onto::Cells {
+    if !matches!(onto, Onto::Basis | Onto::Hats) {
         near(product(&pq, &pq), product(q, &pq), "a projection");
     }
 }
@@ -196,11 +231,11 @@ fn small_body(remedy: &mut dyn Remedy<2>, steps: usize) -> (Vec<f64>, Bench<2, 3
         }
         let mut deformation = deformation(remedy, &raw);
         let mut projection = bench.averages(Onto::Basis);
-        let tried = remedy.next_j_bar(&particles, &deformation, projection.as_mut());
-        let tried = tried.map(<[f64]>::to_vec);
-        if let Some(next) = remedy.next_j_bar(&particles, &deformation, projection.as_mut()) {
-            assert_eq!(tried.as_deref(), Some(next), "a step tried again");
-            averaged = take(&mut particles, &mut deformation, next);
+        let tried = next(remedy, &particles, &deformation, projection.as_mut());
+        let next = next(remedy, &particles, &deformation, projection.as_mut());
+        assert_eq!(tried, next, "a step tried again");
+        if !next.is_empty() {
+            averaged = take(&mut particles, &mut deformation, &next);
         }
         bench.particles = particles;
     }
@@ -297,7 +332,7 @@ fn power_is_the_rate_of_energy<const S: usize, B: Basis<S>>(places: &[[f64; 4]],
 }
 
 fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
-    mut remedy: Fbar,
+    remedy: Fbar,
     onto: Onto,
     places: &[[f64; 4]],
     carried: &[Carried],
@@ -306,8 +341,8 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
     let (bench, states, gradients) = strained::<S, B>(&law, places, carried);
     let mut average = bench.averages(onto);
     let loaded = &bench.particles;
-    let mut mean = Vec::new();
-    remedy.force_mean(loaded, average.as_mut(), &mut mean);
+    let columns = forced(&remedy, loaded, average.as_mut());
+    let mean = &columns.mean;
     let (mut power, mut scale) = (0.0, 0.0);
     for (k, l) in gradients.iter().enumerate() {
         let ratio = loaded.j_bar[k] / loaded.jacobian[k];
@@ -326,8 +361,7 @@ fn power_of_remedy_is_the_rate_of_energy<const S: usize, B: Basis<S>>(
         let small = |l: &SMatrix<f64, 2, 2>| SMatrix::identity() + l * (sign * epsilon);
         let delta_f: Gradients = gradients.iter().map(small).collect();
         let mut deformation = deformation(&remedy, &delta_f);
-        let next = remedy.next_j_bar(&moved, &deformation, average.as_mut());
-        let next = next.unwrap().to_vec();
+        let next = next_after(&remedy, &moved, &deformation, average.as_mut(), columns.clone());
         let delta_f = take(&mut moved, &mut deformation, &next);
         let energy = |k: usize| law.energy(&law.response(&embed(&delta_f[k]), 1.0, &states[k]).1);
         (0..moved.len()).map(|k| moved.reference_volume[k] * energy(k)).sum()
@@ -349,12 +383,12 @@ fn holding_does_nothing_without_pressure_or_disorder() {
     let moved: Vec<Carried> = (places.iter()).map(|[a, b, c, d]| ([a - 0.5, b - 0.5], [*c, *d, *a, *b])).collect();
     let (bench, _, _) = strained::<3, Gimp>(&law, &places, &moved);
     let mut average = bench.averages(Onto::Basis);
-    let mut remedy = Fbar::new(Form::Consistent).holding(10.0, 5e3).unwrap();
-    remedy.force_mean(&bench.particles, average.as_mut(), &mut Vec::new());
+    let remedy = Fbar::new(Form::Consistent).holding(10.0, 5e3).unwrap();
+    let columns = forced(&remedy, &bench.particles, average.as_mut());
     let grown = vec![SMatrix::<f64, 2, 2>::identity() * 1.1; places.len()];
     let deformation = deformation(&remedy, &grown);
-    let next = remedy.next_j_bar(&bench.particles, &deformation, average.as_mut());
-    for (next, before) in next.unwrap().iter().zip(&bench.particles.j_bar) {
+    let next = next_after(&remedy, &bench.particles, &deformation, average.as_mut(), columns);
+    for (next, before) in next.iter().zip(&bench.particles.j_bar) {
         // The cloud's J̄ is rough, but nothing shears, so that nothing of it relaxes.
         assert!((next / before - 1.21).abs() < ROUNDING, "{next} {before}");
     }
@@ -386,10 +420,9 @@ proptest! {
             let sheared = |l: &SMatrix<f64, 2, 2>| SMatrix::<f64, 2, 2>::new(1.0, shear * l[(0, 1)], 0.0, 1.0);
             let delta_f: Gradients = gradients.iter().map(sheared).collect();
             let mut average = bench.averages(Onto::Basis);
-            let mut remedy = Fbar::new(Form::Consistent).relaxing(100.0);
+            let remedy = Fbar::new(Form::Consistent).relaxing(100.0);
             let deformation = deformation(&remedy, &delta_f);
-            let next = remedy.next_j_bar(&bench.particles, &deformation, average.as_mut());
-            next.unwrap().to_vec()
+            next(&remedy, &bench.particles, &deformation, average.as_mut())
         };
         let volume = &bench.particles.volume;
         let sum = |j: &[f64], power: i32| -> f64 {

@@ -69,7 +69,7 @@ impl<const D: usize, const S: usize, B: Basis<S>> Frozen<D, S, B> {
     fn new(grid: Grid<D>, wall: WallTreatment, positions: Vec<[f64; D]>) -> Self {
         let mut particles = Particles::new(positions, 0.1, 1.0, [0.25 * H; D]).unwrap();
         let lattice = Lattice::new(grid, wall);
-        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
+        let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size, false);
         particles.permute(&order);
         Self { nodes: vec![NodalState::default(); lattice.len()], lattice, particles, slabs }
     }

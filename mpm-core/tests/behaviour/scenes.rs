@@ -55,6 +55,9 @@ pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
         Box::new(Fbar::new(Form::Consistent)),
         Box::new(Fbar::new(Form::Bbar).onto(Onto::Cells)),
         Box::new(Fbar::new(Form::Consistent).onto(Onto::Hats)),
+        Box::new(Fbar::new(Form::Bbar).onto(Onto::Blocks)),
+        Box::new(Fbar::new(Form::Bbar).onto(Onto::Patches)),
+        Box::new(Fbar::new(Form::Consistent).onto(Onto::Patches).relaxing(10.0)),
     ]
 }
 

@@ -91,15 +91,24 @@ impl RemedyName {
     /// The remedy.
     #[must_use]
     pub fn build<const D: usize>(self) -> Box<dyn Remedy<D>> {
+        match self.fbar() {
+            Some(fbar) => Box::new(fbar),
+            None => Box::new(Standard),
+        }
+    }
+
+    /// The member of the F̄ family, if it is one.
+    #[must_use]
+    pub fn fbar(self) -> Option<Fbar> {
         let (form, onto) = match self {
-            Self::None => return Box::new(Standard),
+            Self::None => return None,
             Self::FbarRecursive => (Form::Recursive, Onto::Basis),
             Self::FbarTotal => (Form::Total, Onto::Basis),
             Self::FbarRate => (Form::Rate, Onto::Basis),
             Self::FbarConsistent => (Form::Consistent, Onto::Basis),
             Self::Other(form, onto) => (form, onto),
         };
-        Box::new(Fbar::new(form).onto(onto))
+        Some(Fbar::new(form).onto(onto))
     }
 }
 
@@ -149,14 +158,24 @@ plain_text!(RemedyName, "remedy", [
     Self::Other(Form::Bbar, Onto::Basis) => "bbar",
     Self::Other(Form::Bbar, Onto::Hats) => "bbar-hats",
     Self::Other(Form::Bbar, Onto::Cells) => "bbar-cells",
+    Self::Other(Form::Bbar, Onto::Blocks) => "bbar-blocks",
+    Self::Other(Form::Bbar, Onto::Patches) => "bbar-patches",
     Self::Other(Form::Recursive, Onto::Hats) => "fbar-recursive-hats",
     Self::Other(Form::Recursive, Onto::Cells) => "fbar-recursive-cells",
+    Self::Other(Form::Recursive, Onto::Blocks) => "fbar-recursive-blocks",
+    Self::Other(Form::Recursive, Onto::Patches) => "fbar-recursive-patches",
     Self::Other(Form::Total, Onto::Hats) => "fbar-total-hats",
     Self::Other(Form::Total, Onto::Cells) => "fbar-total-cells",
+    Self::Other(Form::Total, Onto::Blocks) => "fbar-total-blocks",
+    Self::Other(Form::Total, Onto::Patches) => "fbar-total-patches",
     Self::Other(Form::Rate, Onto::Hats) => "fbar-rate-hats",
     Self::Other(Form::Rate, Onto::Cells) => "fbar-rate-cells",
+    Self::Other(Form::Rate, Onto::Blocks) => "fbar-rate-blocks",
+    Self::Other(Form::Rate, Onto::Patches) => "fbar-rate-patches",
     Self::Other(Form::Consistent, Onto::Hats) => "fbar-consistent-hats",
-    Self::Other(Form::Consistent, Onto::Cells) => "fbar-consistent-cells"]);
+    Self::Other(Form::Consistent, Onto::Cells) => "fbar-consistent-cells",
+    Self::Other(Form::Consistent, Onto::Blocks) => "fbar-consistent-blocks",
+    Self::Other(Form::Consistent, Onto::Patches) => "fbar-consistent-patches"]);
 plain_text!(TransferName, "transfer", [
     Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2",
     Self::Musl => "musl", Self::None => "none"]);

@@ -1,13 +1,12 @@
 //! The F̄ family: a form of J̄ⁿ⁺¹ and of the force, and the functions that Π averages with.
 
-use super::{Deformation, Remedy, fill, fill_with_products, mean};
+use super::{Columns, Filled, Known, Mean, Remedy, fill, mean, multiply};
 use crate::eights::{AHEAD, Eights};
 use crate::error::{Error, positive, require};
 use crate::memory::Memoryless;
 use crate::number::Eight;
 use crate::parallel::{CHUNK, for_each_piece};
-use crate::particles::Particles;
-use crate::projection::{Average, Onto};
+use crate::projection::Onto;
 use crate::tensor::SymmetricTensor;
 
 /// How J̄ⁿ⁺¹ is formed, and with which pressure the force.
@@ -45,11 +44,6 @@ pub struct Fbar {
     relaxation: f64,
     /// How many times the smooth pressure ε² K holds at least, over K (1/Pa); zero for the same ε everywhere.
     hold: f64,
-    /// ε of every particle in the step; empty where all have the same.
-    kept: Vec<f64>,
-    averaged: Vec<f64>,
-    next: Vec<f64>,
-    rest: Vec<f64>,
 }
 
 /// The relaxation β that serves every problem of the bench.
@@ -63,8 +57,7 @@ impl Fbar {
     #[must_use]
     pub fn new(form: Form) -> Self {
         let relaxation = if form == Form::Consistent { RELAXATION } else { 0.0 };
-        let [kept, averaged, next, rest] = [const { Vec::new() }; 4];
-        Self { form, onto: Onto::Basis, relaxation, hold: 0.0, kept, averaged, next, rest }
+        Self { form, onto: Onto::Basis, relaxation, hold: 0.0 }
     }
 
     /// With other functions to average with.
@@ -92,18 +85,28 @@ impl Fbar {
         Ok(self)
     }
 
+    /// Whether A is not Π: a share of what Π cannot see is kept.
+    #[must_use]
+    pub fn keeps_unseen(&self) -> bool {
+        self.form == Form::Consistent
+    }
+
+    /// Whether the force has a mean stress of its own.
+    fn averages_pressure(&self) -> bool {
+        matches!(self.form, Form::Bbar | Form::Consistent)
+    }
+
     /// Takes (I − Π) θ (I − Π) J̄ off the next J̄.
-    fn relax<const D: usize>(&mut self, particles: &Particles<D>, shear: &[f64], average: &mut dyn Average<D>) {
-        self.rest.clone_from(&self.next);
-        average.average(particles, &mut self.rest);
-        let relaxation = self.relaxation;
-        for_each_pair(&mut self.next, &mut self.rest, |p, next, rest| {
-            let theta = (relaxation * shear[p]).min(1.0);
+    fn relax(&self, shear: &[f64], next: &mut [f64], rest: &mut [f64], average: Mean<'_>) {
+        rest.copy_from_slice(next);
+        average(rest);
+        for_each_pair(next, rest, |p, next, rest| {
+            let theta = (self.relaxation * shear[p]).min(1.0);
             *rest = theta * (*next - *rest);
             *next -= *rest;
         });
-        average.average(particles, &mut self.rest);
-        for_each_pair(&mut self.next, &mut self.rest, |_, next, smooth| {
+        average(rest);
+        for_each_pair(next, rest, |_, next, smooth| {
             *next += *smooth;
         });
     }
@@ -111,24 +114,17 @@ impl Fbar {
 
 /// Replaces `field` by A `field` = Π field + ε r + Π (1 − ε) r with r = (I − Π) field, which `rest` is for; ε is that
 /// which every particle has `kept`, or the same of all.
-fn sharpened<const D: usize>(
-    particles: &Particles<D>,
-    average: &mut dyn Average<D>,
-    field: &mut [f64],
-    rest: &mut Vec<f64>,
-    kept: &[f64],
-) {
+fn sharpened(field: &mut [f64], rest: &mut [f64], kept: &[f64], average: Mean<'_>) {
     let kept = |p: usize| kept.get(p).copied().unwrap_or(UNSEEN);
-    rest.clear();
-    rest.extend_from_slice(field);
-    average.average(particles, rest);
+    rest.copy_from_slice(field);
+    average(rest);
     for_each_pair(field, rest, |p, field, smooth| {
         let rough = *field - *smooth;
         *field = *smooth + kept(p) * rough;
         // The factor is one, and changes no bit, where all have the same ε.
         *smooth = rough * ((1.0 - kept(p)) / (1.0 - UNSEEN));
     });
-    average.average(particles, rest);
+    average(rest);
     for_each_pair(field, rest, |_, field, seen| {
         *field += (1.0 - UNSEEN) * *seen;
     });
@@ -155,14 +151,25 @@ impl<const D: usize> Remedy<D> for Fbar {
         self.relaxation > 0.0
     }
 
-    fn force_mean(&mut self, particles: &Particles<D>, average: &mut dyn Average<D>, of_force: &mut Vec<f64>) {
-        if !matches!(self.form, Form::Bbar | Form::Consistent) {
+    fn columns(&self, n: usize) -> Columns {
+        let column = |needed: bool, value: f64| vec![value; if needed { n } else { 0 }];
+        Columns {
+            next: column(true, 0.0),
+            mean: column(self.averages_pressure(), 0.0),
+            kept: column(self.hold > 0.0, UNSEEN),
+            rest: column(self.keeps_unseen() || self.relaxation > 0.0, 0.0),
+        }
+    }
+
+    fn force_mean(&self, known: Known<'_>, filled: &mut Filled<'_>, average: Mean<'_>) {
+        if !self.averages_pressure() {
             return;
         }
-        fill(of_force, particles.len(), |chunk| {
-            let stress = Eights::of(&particles.stress[chunk.clone()]);
-            let j = Eights::of(&particles.jacobian[chunk.clone()]);
-            let j_bar = Eights::of(&particles.j_bar[chunk]);
+        let Filled { mean: of_force, kept, rest, .. } = filled;
+        fill(of_force, |chunk| {
+            let stress = Eights::of(&known.stress[chunk.clone()]);
+            let j = Eights::of(&known.jacobian[chunk.clone()]);
+            let j_bar = Eights::of(&known.j_bar[chunk]);
             move |k| {
                 stress.fetch(k + AHEAD);
                 let stress = stress.at(k);
@@ -170,44 +177,38 @@ impl<const D: usize> Remedy<D> for Fbar {
                 Eight::new(*j_bar.at(k)) / Eight::new(*j.at(k)) * mean::<Eight, D>(&stress)
             }
         });
-        if self.form == Form::Bbar {
-            return average.average(particles, of_force);
+        if !self.keeps_unseen() {
+            return average(of_force);
         }
         if self.hold > 0.0 {
             // The pressure that drives is the smooth one; noise of the true one would hold the more, the more there is.
-            self.kept.clone_from(of_force);
-            average.average(particles, &mut self.kept);
-            for kept in &mut self.kept {
+            kept.copy_from_slice(of_force);
+            average(kept);
+            for kept in kept.iter_mut() {
                 *kept = (self.hold * kept.abs()).sqrt().clamp(UNSEEN, 1.0);
             }
         }
-        sharpened(particles, average, of_force, &mut self.rest, &self.kept);
+        sharpened(of_force, rest, kept, average);
     }
 
-    fn next_j_bar(
-        &mut self,
-        particles: &Particles<D>,
-        deformation: &Deformation<D>,
-        average: &mut dyn Average<D>,
-    ) -> Option<&[f64]> {
-        let Self { form, averaged, next, rest, kept, .. } = self;
-        let change = &deformation.volume_change;
-        match form {
-            Form::Total => next.clone_from(&particles.jacobian),
-            Form::Recursive => fill_with_products(next, &particles.j_bar, change),
-            Form::Rate | Form::Bbar | Form::Consistent => averaged.clone_from(change),
+    fn next_j_bar(&self, known: Known<'_>, filled: &mut Filled<'_>, average: Mean<'_>) {
+        let Filled { next, kept, rest, .. } = filled;
+        match self.form {
+            Form::Total => next.copy_from_slice(known.jacobian),
+            _ => next.copy_from_slice(known.volume_change),
         }
-        match form {
-            Form::Total | Form::Recursive => average.average(particles, next),
-            Form::Rate | Form::Bbar => average.average(particles, averaged),
-            Form::Consistent => sharpened(particles, average, averaged, rest, kept),
+        if self.form == Form::Recursive {
+            multiply(next, known.j_bar);
         }
-        if !matches!(form, Form::Total | Form::Recursive) {
-            fill_with_products(next, &particles.j_bar, averaged);
+        match self.keeps_unseen() {
+            true => sharpened(next, rest, kept, average),
+            false => average(next),
+        }
+        if !matches!(self.form, Form::Total | Form::Recursive) {
+            multiply(next, known.j_bar);
         }
         if self.relaxation > 0.0 {
-            self.relax(particles, &deformation.shear, average);
+            self.relax(known.shear, next, rest, average);
         }
-        Some(&self.next)
     }
 }

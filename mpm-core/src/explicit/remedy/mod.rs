@@ -8,12 +8,11 @@ mod fbar;
 pub use crate::projection::Onto;
 pub use fbar::{Fbar, Form};
 
-use crate::eights::{Eights, blocks, numbers, store_numbers};
+use crate::eights::{blocks, numbers, store_numbers};
 use crate::memory::{Memory, Memoryless};
-use crate::number::{Eight, Real};
+use crate::number::{EIGHT, Eight, Real};
 use crate::parallel::{CHUNK, Front, for_each_piece};
 use crate::particles::Particles;
-use crate::projection::Average;
 use crate::space::stretch_of_volume;
 use crate::tensor::SymmetricTensor;
 use std::ops::Range;
@@ -37,7 +36,8 @@ impl<const D: usize> Deformation<D> {
     /// Room for bodies with these numbers of particles.
     #[must_use]
     pub fn of(remedy: &dyn Remedy<D>, lengths: &[usize]) -> Self {
-        let (n, eights) = (lengths.iter().sum(), lengths.iter().map(|n| blocks(*n)).sum());
+        let n = lengths.iter().sum();
+        let eights = lengths.iter().map(|n| n / EIGHT + n.div_ceil(CHUNK)).sum();
         Self {
             delta_f: vec![[[Eight::ZERO; D]; D]; eights],
             increment: vec![[Eight::ZERO; D]; eights],
@@ -61,17 +61,21 @@ impl<const D: usize> Deformation<D> {
 pub struct DeformationChunk<'a, const D: usize> {
     delta_f: &'a mut [[[Eight; D]; D]],
     increment: &'a mut [[Eight; D]],
-    volume_change: &'a mut [f64],
-    shear: &'a mut [f64],
+    /// ΔJ and the shear strain, as those of all.
+    pub volume_change: &'a mut [f64],
+    /// See there.
+    pub shear: &'a mut [f64],
 }
 
 impl<const D: usize> Front for DeformationChunk<'_, D> {
-    fn front(&mut self, pieces: usize, size: usize) -> Self {
+    fn front(&mut self, pieces: usize, entries: usize) -> Self {
+        // Every piece may have an eight that is not full.
+        let eights = entries / EIGHT + pieces;
         Self {
-            delta_f: self.delta_f.front(pieces, blocks(size)),
-            increment: self.increment.front(pieces, blocks(size)),
-            volume_change: self.volume_change.front(pieces, size),
-            shear: self.shear.front(pieces, size),
+            delta_f: self.delta_f.front(pieces, eights),
+            increment: self.increment.front(pieces, eights),
+            volume_change: self.volume_change.front(pieces, entries),
+            shear: self.shear.front(pieces, entries),
         }
     }
 }
@@ -133,8 +137,82 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
     (squares + squares).sqrt()
 }
 
+/// What a remedy averages: columns of some particles.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a> {
+    /// Cauchy stress (Pa).
+    pub stress: &'a [SymmetricTensor],
+    /// J.
+    pub jacobian: &'a [f64],
+    /// J̄ at the step's start.
+    pub j_bar: &'a [f64],
+    /// ΔJ, once it is known.
+    pub volume_change: &'a [f64],
+    /// Shear strain of the step, where the remedy asks for it.
+    pub shear: &'a [f64],
+}
+
+impl<'a> Known<'a> {
+    /// That of all particles.
+    pub fn of<const D: usize>(particles: &'a Particles<D>, deformation: &'a Deformation<D>) -> Self {
+        Self {
+            stress: &particles.stress,
+            jacobian: &particles.jacobian,
+            j_bar: &particles.j_bar,
+            volume_change: &deformation.volume_change,
+            shear: &deformation.shear,
+        }
+    }
+}
+
+/// Columns that a remedy fills; those that it doesn't use are empty.
+#[derive(Debug, Clone, Default)]
+pub struct Columns {
+    /// J̄ⁿ⁺¹.
+    pub next: Vec<f64>,
+    /// Mean stress (Pa) that enters the forces by [`force_stress`].
+    pub mean: Vec<f64>,
+    /// The share of a strain that averages don't see which is kept; empty where all particles have the same.
+    pub kept: Vec<f64>,
+    /// What averages leave over.
+    pub rest: Vec<f64>,
+}
+
+/// The same of some particles.
+pub struct Filled<'a> {
+    /// J̄ⁿ⁺¹.
+    pub next: &'a mut [f64],
+    /// Mean stress (Pa).
+    pub mean: &'a mut [f64],
+    /// Share of what is not seen.
+    pub kept: &'a mut [f64],
+    /// What averages leave over.
+    pub rest: &'a mut [f64],
+}
+
+impl Columns {
+    /// All of them, for threads to share.
+    pub fn all(&mut self) -> Filled<'_> {
+        Filled { next: &mut self.next, mean: &mut self.mean, kept: &mut self.kept, rest: &mut self.rest }
+    }
+}
+
+impl Front for Filled<'_> {
+    fn front(&mut self, pieces: usize, entries: usize) -> Self {
+        Self {
+            next: self.next.front(pieces, entries),
+            mean: self.mean.front(pieces, entries),
+            kept: self.kept.front(pieces, entries),
+            rest: self.rest.front(pieces, entries),
+        }
+    }
+}
+
+/// Π of a column of the particles at hand.
+pub type Mean<'a> = &'a mut dyn FnMut(&mut [f64]);
+
 /// A locking remedy of a body. Its state, J̄, is a column of the particles.
-pub trait Remedy<const D: usize>: Memory + Send {
+pub trait Remedy<const D: usize>: Memory + Send + Sync {
     /// Gives the particles the columns that the remedy needs: J̄, if it averages.
     fn attach(&mut self, particles: &mut Particles<D>) {
         if self.averages_onto().is_some() {
@@ -152,19 +230,18 @@ pub trait Remedy<const D: usize>: Memory + Send {
         false
     }
 
-    /// Before the forces are formed: fills `mean` with the mean stress (Pa) that enters them by [`force_stress`], of a
-    /// remedy that averages the pressure as well; of others `mean` stays empty, and the law's stress enters them.
-    fn force_mean(&mut self, _particles: &Particles<D>, _average: &mut dyn Average<D>, _mean: &mut Vec<f64>) {}
+    /// The columns that it fills, of `n` particles: J̄ⁿ⁺¹ unless that is J; the mean stress of a remedy that averages the
+    /// pressure as well, the law's stress entering the forces otherwise.
+    fn columns(&self, _n: usize) -> Columns {
+        Columns::default()
+    }
 
-    /// After ΔF and J are known: J̄ⁿ⁺¹ of every particle, unless that is J. Positions, volumes and J̄ are still those
-    /// of the step's start; it can be asked for again after other ΔF. Who takes the step makes it that of the
-    /// particles.
-    fn next_j_bar(
-        &mut self,
-        particles: &Particles<D>,
-        deformation: &Deformation<D>,
-        average: &mut dyn Average<D>,
-    ) -> Option<&[f64]>;
+    /// Before the forces are formed: fills the mean stress, if it has that column.
+    fn force_mean(&self, _known: Known<'_>, _filled: &mut Filled<'_>, _average: Mean<'_>) {}
+
+    /// After ΔF and J are known: fills J̄ⁿ⁺¹. Positions, volumes and J̄ are still those of the step's start; it can be
+    /// asked for again after other ΔF. Who takes the step makes it that of the particles.
+    fn next_j_bar(&self, _known: Known<'_>, _filled: &mut Filled<'_>, _average: Mean<'_>) {}
 }
 
 /// No remedy: ΔF̄ = ΔF, no averaged Jacobian is kept.
@@ -177,24 +254,22 @@ impl<const D: usize> Remedy<D> for Standard {
     fn averages_onto(&self) -> Option<Onto> {
         None
     }
-
-    fn next_j_bar(&mut self, _: &Particles<D>, _: &Deformation<D>, _: &mut dyn Average<D>) -> Option<&[f64]> {
-        None
-    }
 }
 
-/// Fills `out` with the products of two columns.
-fn fill_with_products(out: &mut Vec<f64>, a: &[f64], b: &[f64]) {
-    fill(out, a.len(), |chunk| {
-        let (a, b) = (Eights::of(&a[chunk.clone()]), Eights::of(&b[chunk]));
-        move |k| Eight::new(*a.at(k)) * Eight::new(*b.at(k))
+/// Multiplies a column by another.
+fn multiply(out: &mut [f64], by: &[f64]) {
+    let n = out.len();
+    for_each_piece((out, by), n, CHUNK, &|_, (out, by): (&mut [f64], &[f64])| {
+        for (out, by) in out.iter_mut().zip(by) {
+            *out *= by;
+        }
     });
 }
 
-/// Fills `out` with numbers, `n` in all. `of_chunk(particles)` gives what makes those of the `k`-th eight of them.
-fn fill<F: Fn(usize) -> Eight>(out: &mut Vec<f64>, n: usize, of_chunk: impl Fn(Range<usize>) -> F + Sync) {
-    out.resize(n, 0.0);
-    for_each_piece(&mut out[..], n, CHUNK, &|begin, out| {
+/// Fills `out` with numbers. `of_chunk(particles)` gives what makes those of the `k`-th eight of them.
+fn fill<F: Fn(usize) -> Eight>(out: &mut [f64], of_chunk: impl Fn(Range<usize>) -> F + Sync) {
+    let n = out.len();
+    for_each_piece(out, n, CHUNK, &|begin, out: &mut [f64]| {
         let f = of_chunk(begin..begin + out.len());
         for k in 0..blocks(out.len()) {
             store_numbers(out, k, f(k));

@@ -5,7 +5,6 @@ use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG
 use crate::cases::prelude::*;
 use crate::exact::common::ANGULAR_FREQUENCY;
 use mpm_core::explicit::Remedy;
-use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::stage::BodyForce;
 use nalgebra::Vector3;
 use std::sync::Arc;
@@ -102,12 +101,12 @@ impl<K: Known> Scenario<K> {
         if let Some(settings) = setup.implicit_settings(dt) {
             return mpm_solvers::implicit(setup.scheme, scene, settings);
         }
-        let remedy: Box<dyn Remedy<D>> = match setup.remedy() {
-            FbarConsistent => {
-                let remedy = Fbar::new(Form::Consistent).relaxing(self.number(RELAXATION));
-                Box::new(remedy.holding(self.number(HOLD), scene.bodies.wave_moduli()[0])?)
+        let remedy: Box<dyn Remedy<D>> = match setup.remedy().fbar() {
+            Some(fbar) if fbar.keeps_unseen() => {
+                let fbar = fbar.relaxing(self.number(RELAXATION));
+                Box::new(fbar.holding(self.number(HOLD), scene.bodies.wave_moduli()[0])?)
             }
-            other => other.build(),
+            _ => setup.remedy().build(),
         };
         let settings = setup.settings(dt, 0.0)?.transfer(Flip::new(self.number(FLIP))?);
         mpm_solvers::solver(setup.scheme, scene, settings.remedy(remedy))
