@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Linear analysis of the averages: the numbers of docs/modes.md that it calls those of the script. Needs numpy.
+"""Linear analysis of the averages: the numbers of docs/remedy.md that it calls those of the script. Needs numpy.
 
 Largest stable CFL numbers at rest, and the largest growth of a wave per crossed cell, from the step matrices of one Bloch
 wave on a periodic lattice of n particles per cell (FLIP, no mean stress, epsilon = 0).

@@ -1,4 +1,4 @@
-//! Effect of the averages on waves: the closed forms and tables of `docs/modes.md`.
+//! Effect of the averages on waves: the closed forms and tables of `docs/remedy.md`.
 
 mod fluid;
 mod model;
@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 /// Identities between sums of a few weights.
 const ROUNDING: f64 = 1e-12;
 
-/// Π̂ as a polynomial in y = 1 − cos kh: the closed forms of `docs/modes.md`.
+/// Π̂ as a polynomial in y = 1 − cos kh: the closed forms of `docs/remedy.md`.
 fn hat(n: usize, y: f64) -> f64 {
     let n2 = (n * n) as f64;
     1.0 - (1.0 / 3.0 + 1.0 / (6.0 * n2)) * y
@@ -221,7 +221,7 @@ fn growth<const S: usize, B: Basis<S>>(kind: Kind, tau: f64, steps: usize, mean:
     (1..=CELLS / 2).map(of).fold(0.0, f64::max)
 }
 
-/// The multipliers of `docs/modes.md`: columns linear, uGIMP, quadratic, cubic.
+/// The multipliers of `docs/remedy.md`: columns linear, uGIMP, quadratic, cubic.
 #[test]
 fn crossing_a_cell_feeds_waves_as_documented() {
     #[rustfmt::skip]
@@ -323,7 +323,7 @@ fn growth_of_noise<const S: usize, B: Basis<S> + 'static>(
     (across(solver.particles()) / before).sqrt()
 }
 
-/// The tables of `docs/modes.md`: the fastest particles cross twelve cells, or none moves.
+/// The tables of `docs/remedy.md`: the fastest particles cross twelve cells, or none moves.
 #[test]
 fn noise_grows_as_documented() {
     let gimp = [
@@ -344,7 +344,7 @@ fn noise_grows_as_documented() {
 }
 
 /// A pressure of a hundredth of K, and a multiple of it as the stiffness of modes that Π cannot see: the table of
-/// `docs/disorder.md`. A quarter of the pressure is too little at rest.
+/// `docs/remedy.md`. A quarter of the pressure is too little at rest.
 #[test]
 fn a_stiffness_above_the_pressure_stills_the_noise() {
     let growth = |times: f64, speed: f64, steps| {

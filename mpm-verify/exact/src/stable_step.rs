@@ -1,4 +1,4 @@
-//! The largest step by linear analysis: `docs/modes.md`, in one to three dimensions and for every transfer.
+//! The largest step by linear analysis: `docs/remedy.md`, in one to three dimensions and for every transfer.
 
 use crate::common::UNSEEN;
 use mpm_core::Axis;
@@ -214,7 +214,7 @@ mod tests {
     use super::*;
     use mpm_solvers::scheme::RemedyName::{FbarConsistent, FbarRate, FbarRecursive, None};
 
-    /// The table of `docs/modes.md`, two particles a cell, within its two decimals and a period of 48 cells.
+    /// The table of `docs/remedy.md`, two particles a cell, within its two decimals and a period of 48 cells.
     #[test]
     fn in_one_dimension_it_is_the_table_of_modes() {
         let table = [

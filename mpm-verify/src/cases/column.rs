@@ -135,7 +135,7 @@ fn checks() -> Vec<Check> {
         Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: kinetic energy of the last third more than 100 times that of the middle third")
             .when(|r| rests(r) && is_long(r) && grows(r))
             .above(KINETIC_GROWTH, |_| GROWN)
-            .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/modes.md)"),
+            .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/remedy.md)"),
         Gate::truth("no-growth", "GIMP, quadratic splines, not fbar-recursive, from 10⁵ steps: peak kinetic energy of the last third at most the middle third's, and rounding")
             .when(|r| rests(r) && is_long(r) && !grows(r))
             .at_most(KINETIC_GROWTH, |r| 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))

@@ -140,7 +140,7 @@ pub(super) fn case() -> Case {
     .reference("Exact to first order in the steepness: Lamb 1932, §228, on top of the exact state of rest of a compressible liquid. Frequency ω² = g k tanh kH; the compressibility lowers it by about gH/(2c²) = 0.1 %.")
     .limit("The steepest slope of the wave is 3 %; terms of second order are left out of the exact solution.")
     .limit("Sound travels at 50 m/s, not at 1,416 m/s.")
-    .limit("No averaged remedy carries the wave through twenty periods with both bases: with GIMP fbar-consistent does at hold=10 and relaxation=0, with quadratic splines none does (docs/disorder.md).")
+    .limit("No averaged remedy carries the wave through twenty periods with both bases: with GIMP fbar-consistent does at hold=10 and relaxation=0, with quadratic splines none does (docs/averages.md).")
     .anew()
     .wanted("frequency", "frequency over the periods", "frequency")
     .missed_by("locks motion-lost")
@@ -158,7 +158,7 @@ pub(super) fn case() -> Case {
     .table(periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()))
     .breaks_down(|r| {
         let disordered = Setup::of_record(r).is_ok_and(|r| is_disordered(&r));
-        disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/modes.md)")
+        disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/remedy.md)")
     })
     .pictures(pictures)
 }
@@ -202,7 +202,7 @@ fn checks() -> Vec<Check> {
             "no amplitude or no gravity: final rms displacement at most ρ g h H/2K, twice a quarter of a cell's head over the depth",
             |r| 0.5 * compression(r) * r.h,
         ),
-        motion_lost(|_| Some("the phase is lost, or particles have left their order, as only what Π sees is stiff (docs/modes.md)")),
+        motion_lost(|_| Some("the phase is lost, or particles have left their order, as only what Π sees is stiff (docs/remedy.md)")),
         Gate::known_limit("locks", "none with GIMP: frequency off by more than ½ (kh)² + 1 %")
             .when(|r| r.remedy() == RemedyName::None && r.basis() == Gimp && moves(&r.values))
             .above(FREQUENCY_ERROR, |r| tolerance(r))

@@ -61,7 +61,7 @@ fn strain(r: &Setup<()>) -> f64 {
 }
 
 /// (1 − square of the frequency over that without a remedy)/(kh)², to leading order, with two particles
-/// per cell: from the dispersion of docs/modes.md. None where a wall's functions spoil it.
+/// per cell: from the dispersion of docs/remedy.md. None where a wall's functions spoil it.
 fn softening(basis: BasisName, remedy: RemedyName) -> Option<f64> {
     let consistent = remedy == FbarConsistent;
     match basis {
@@ -99,7 +99,7 @@ pub(super) fn case() -> Case {
     ])
     .planned(plan)
     .reference("Exact frequency: ω = k c of uniaxial strain (Achenbach 1973); of the amplitude kA = 3·10⁻⁴ the frequency of the neo-Hookean bar depends by 10⁻⁷.")
-    .reference("What averaging does: the symbol of Π, docs/modes.md.")
+    .reference("What averaging does: the symbol of Π, docs/remedy.md.")
     .limit("One mode of small amplitude: no particle crosses a cell.")
     .limit("FLIP with lumped masses damps even at η = 1, by ¼ s² (kh)² (ωΔt)² a step; the amplitude falls accordingly.")
     .anew()
@@ -250,7 +250,7 @@ fn checks() -> Vec<Check> {
                 },
                 |r| 0.5 * resolution(r).powi(3) / PI,
             )
-            .because("dispersion of the average, docs/modes.md; in the cells next to the walls, 2kh/π of the bar, it may be off by all of ¼ (kh)²"),
+            .because("dispersion of the average, docs/remedy.md; in the cells next to the walls, 2kh/π of the bar, it may be off by all of ¼ (kh)²"),
     ];
     checks.extend(orders(ORDERS));
     checks

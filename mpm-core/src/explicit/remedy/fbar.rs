@@ -31,7 +31,7 @@ pub enum Form {
     /// shear strain of the step, which keeps the volume, never adds energy to first order, and does nothing at rest.
     ///
     /// A pressure above ε² K does feed it. [`Fbar::holding`] gives every particle an ε of its own, that the pressure
-    /// there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/disorder.md`).
+    /// there asks for: A = I − (I − Π)(1 − ε)(I − Π) is as symmetric (`docs/remedy.md`).
     Consistent,
 }
 
@@ -49,7 +49,7 @@ pub struct Fbar {
 /// The relaxation β that serves every problem of the bench.
 const RELAXATION: f64 = 10.0;
 /// The share ε of a strain that Π cannot see which is kept. ε² K has to hold against the pressure of a body,
-/// 10⁻⁴ K is ten times that of two metres of water; from 0.1 on bodies lock (`docs/remedy.md`).
+/// 10⁻⁴ K is ten times that of two metres of water; from 0.1 on bodies lock (`docs/averages.md`).
 const UNSEEN: f64 = 0.01;
 
 impl Fbar {

@@ -47,7 +47,7 @@ pub(super) fn case() -> Case {
         .described("A lattice of particles at rest with a little noise: ten halvings find the largest CFL number at which the noise \
             does not grow, for every explicit scheme, in one to three dimensions, aligned, off the lattice, cut by the \
             grid, compressed and stretched, and with an artificial viscosity.")
-        .reference("Linear analysis, docs/modes.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.")
+        .reference("Linear analysis, docs/remedy.md: Jury's conditions of a wave's two by two matrix, here in every dimension and for every transfer.")
         .reference("A bound for any arrangement of particles, docs/critical-step.md.")
         .limit("Particles at rest, which cross no cell; a wave that grows by less than a hundredfold within the steps counts as stable.")
         .limit("CFL numbers of one and more are refused by the program and not tried.")
@@ -117,7 +117,7 @@ fn checks() -> Vec<Check> {
                 Demand::within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| SEEN * s.metric(PREDICTED_CFL))
                     .when(|s| s.metric(PREDICTED_CFL) <= 1.0),
             ])
-            .because("Jury's conditions of the matrices of docs/modes.md, over the waves of the lattice"),
+            .because("Jury's conditions of the matrices of docs/remedy.md, over the waves of the lattice"),
         Check::truth("offered-step", "aligned, jittered and cut, no stretch, no viscosity, all but linear functions: the step of time_step=auto is stable")
             .when(|s| s.stretch == 1.0 && s.linear_viscosity == 0.0 && s.metric(OFFERED_CFL).is_finite())
             .above(CRITICAL_CFL, |s| s.metric(OFFERED_CFL) * (1.0 - 0.5 * SEEN))
@@ -129,7 +129,7 @@ fn checks() -> Vec<Check> {
         Check::known_limit("fed-by-mean-stress", "a wave with a negative stiffness by a mean stress grows at every step, at least as fast as by linear analysis")
             .when(|s| s.metric(FED_CFL).is_finite())
             .at_most(CRITICAL_CFL, |s| s.metric(FED_CFL) * (1.0 + SEEN))
-            .because("docs/modes.md: where Π sees no change of volume, a mean stress is all the stiffness there is"),
+            .because("docs/remedy.md: where Π sees no change of volume, a mean stress is all the stiffness there is"),
     ]
 }
 

@@ -22,7 +22,7 @@ use claims::{FORMAL, STALLED};
 pub(in crate::cases) type Gate = CheckOf<()>;
 
 /// Largest relative error of a squared frequency over (kh)², quadratic splines with fbar-rate where all of
-/// the stress is averaged, rounded up: docs/modes.md.
+/// the stress is averaged, rounded up: docs/remedy.md.
 const DISPERSION: f64 = 0.8;
 /// Roundings in the mass of a particle.
 const ROUNDINGS: f64 = 10.0;

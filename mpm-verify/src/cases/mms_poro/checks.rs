@@ -4,7 +4,7 @@ use super::*;
 use crate::cases::checks::{finest, ladders_over, observed_order};
 use crate::cases::manufactured::checks::ladders;
 
-/// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/modes.md.
+/// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/remedy.md.
 const DISPERSION: f64 = 0.8;
 /// Reason not to judge linear functions once particles have moved.
 const MOVED: &str = "displaced particles shift the quadrature of linear functions, whose gradients jump";

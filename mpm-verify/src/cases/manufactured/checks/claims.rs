@@ -38,7 +38,7 @@ pub(in crate::cases) const HATS: &str =
     "displaced particles shift a linear basis's quadrature of mass and body force by u, a floor of about A² k";
 pub(in crate::cases) const JUMPS: &str = "the gradient of a linear basis jumps where particles cross cells";
 pub(in crate::cases) const NULL_SPACE: &str =
-    "a pressure that Π can't see feeds the null space as particles pass each other (docs/modes.md)";
+    "a pressure that Π can't see feeds the null space as particles pass each other (docs/remedy.md)";
 pub(in crate::cases) const LOCKS: &str = "without a remedy the error is that of locking until the cells resolve it";
 pub(in crate::cases) const OFF_NODE: &str =
     "the lumped mass of cubics next to a wall has its centre off the node: between first and second order";
