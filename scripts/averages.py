@@ -3,7 +3,8 @@
 
 usage: averages.py PROGRAM RESULTS.json [REMEDY...]
 
-Makes the runs that RESULTS.json lacks, two at a time, and prints the tables: of all remedies, or of those that are named.
+Makes the runs that RESULTS.json lacks, two at a time, prints the tables, and draws them to RESULTS.svg: of all remedies, or
+of those that are named.
 All runs take about 70 minutes on two cores.
 Price: CPU time of a particle in a step on one thread, over that of none; the least of three runs, undisturbed.
 """
@@ -113,31 +114,73 @@ def value(results, basis, remedy, column):
 
 
 def table(results, basis, remedies):
-    """Texts of the cells by remedy; the best of a column are bold, a dash breaks down, what no case offers is empty."""
+    """(text, ratio to the least error) of every cell by remedy; a dash breaks down, what no case offers is empty."""
     cells = {remedy: [] for remedy in remedies}
     for column in COLUMNS:
         *_, form, exact, alike = column
         of = {remedy: value(results, basis, remedy, column) for remedy in remedies}
-        errors = {remedy: abs(number - exact) + alike for remedy, number in of.items() if not math.isnan(number) and exact < math.inf}
+        errors = {remedy: abs(number - exact) + alike for remedy, number in of.items() if not math.isnan(number)}
+        least = max(min(errors.values()), 1e-9)
         for remedy, number in of.items():
             offered = column[2] == "price" or results[f"{basis} | {remedy} | {column[2]}"]["status"] != "refused"
             text = "–" if offered else ""
             if remedy in errors:
                 text = format(number, form).replace("-", "−")
-                text = f"**{text}**" if errors[remedy] <= BEST * max(min(errors.values()), 1e-9) else text
-            cells[remedy].append(text)
+            cells[remedy].append((text, errors.get(remedy, math.nan) / least if exact < math.inf else math.nan))
     return cells
+
+
+# Up to which ratio to the least error of a column a cell has which colour.
+COLOURS = [(BEST, "#08519c", "white"), (2, "#6baed6", "black"), (5, "#c6dbef", "black"), (20, "#fdd0a2", "black")]
+WIDTH, HEIGHT, LEFT, TOP = 50, 17, 180, 56
+
+
+def picture(tables):
+    """The tables as an SVG, coloured by the ratio to the least error of the column."""
+    heads = [column[:2] for column in COLUMNS]
+    parts, top = [], 0
+
+    def text(x, y, content, anchor="middle", colour="black", weight="normal"):
+        style = f'text-anchor="{anchor}" fill="{colour}" font-weight="{weight}"'
+        parts.append(f'<text x="{x}" y="{y}" {style}>{content}</text>')
+
+    for title, cells in tables.items():
+        text(4, top + 14, title, "start", weight="bold")
+        for k, pair in enumerate(heads):
+            for line, head in enumerate(pair):
+                text(LEFT + (k + 0.5) * WIDTH, top + 34 + 13 * line, head)
+        for row, (remedy, texts) in enumerate(cells.items()):
+            y = top + TOP + row * HEIGHT
+            text(LEFT - 6, y + 12, remedy, "end")
+            for k, (content, ratio) in enumerate(texts):
+                found = [colours for most, *colours in COLOURS if ratio <= most]
+                fill, ink = found[0] if found else ("#e6550d" if ratio > 0 else "#bdbdbd" if content == "–" else "white", "black")
+                x = LEFT + k * WIDTH
+                parts.append(f'<rect x="{x}" y="{y}" width="{WIDTH - 1}" height="{HEIGHT - 1}" fill="{fill}"/>')
+                text(x + WIDTH / 2, y + 12, content, colour=ink)
+        top += TOP + HEIGHT * len(cells) + 16
+    legend = [(f"up to {most:g} times the least error", fill) for most, fill, _ in COLOURS]
+    for k, (said, fill) in enumerate(legend + [("more", "#e6550d"), ("breaks down", "#bdbdbd")]):
+        x = 4 + 205 * k
+        parts.append(f'<rect x="{x}" y="{top}" width="14" height="14" fill="{fill}"/>')
+        text(x + 20, top + 12, said, "start")
+    size = (LEFT + WIDTH * len(heads) + 4, top + 22)
+    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" font-family="sans-serif" font-size="11">'
+    return "\n".join([start, '<rect width="100%" height="100%" fill="white"/>', *parts, "</svg>\n"])
 
 
 def main():
     program, file, *named = sys.argv[1:]
     remedies = ["none"] + (named or REMEDIES[1:])
     results = complete(program, pathlib.Path(file), remedies)
-    for basis, title in BASES.items():
+    tables = {title: table(results, basis, remedies) for basis, title in BASES.items()}
+    for cells in tables.values():
         heads = [" ".join(column[:2]).strip() for column in COLUMNS]
-        print(f"\n{title}:\n\n| average | {' | '.join(heads)} |\n|---{'|---' * len(COLUMNS)}|")
-        for remedy, texts in table(results, basis, remedies).items():
-            print(f"| `{remedy}` | {' | '.join(texts)} |")
+        print(f"\n| average | {' | '.join(heads)} |\n|---{'|---' * len(COLUMNS)}|")
+        for remedy, texts in cells.items():
+            bold = [f"**{text}**" if ratio <= BEST else text for text, ratio in texts]
+            print(f"| `{remedy}` | {' | '.join(bold)} |")
+    pathlib.Path(file).with_suffix(".svg").write_text(picture(tables))
 
 
 if __name__ == "__main__":

@@ -1,11 +1,15 @@
 //! The solver as a whole: conservation, exact motions, errors.
 
-use crate::scenes::{DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl};
+use crate::scenes::{
+    DENSITY, angular_momentum, block, law, open_grid, remedies, scene, scene_with, swirl, with_threads,
+};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::remedy::{Columns, Filled, Known, Mean, Standard};
+use mpm_core::contact::{Barrier, RigidContact, RigidFace};
+use mpm_core::explicit::remedy::{Columns, Fbar, Filled, Form, Known, Mean, Onto, Standard};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
 use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
+use mpm_core::parallel::CHUNK;
 use mpm_core::simulation::Part;
 use mpm_core::stage::Load;
 use mpm_core::stage::{BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind};
@@ -341,6 +345,34 @@ fn bad_input_is_refused_with_its_range() {
     assert!(Grid::new(1.0, [Axis::open(0.0, 3)]).is_err());
     assert!(Particles::new(vec![[f64::NAN]], 1.0, 1.0, [0.1]).is_err());
     assert!(Particles::new(vec![[0.0]], -1.0, 1.0, [0.1]).is_err());
+}
+
+/// A face that nothing touches keeps the averages of all particles apart from the pass. More particles than a pass takes
+/// at once; some are sorted again on the way.
+#[test]
+fn averages_in_one_pass_have_the_bits_of_averages_over_all() {
+    let run = |form: Form, far: bool, threads: usize| {
+        let mut particles = block(0.5, 2, [4, 4], [24, 22]);
+        swirl(&mut particles, 1.2);
+        let (mut scene, settings) = scene(open_grid::<2>(0.5, 28), particles);
+        if far {
+            let barrier = Barrier::carrying_at(1.0, 0.1, 0.125).unwrap();
+            scene = scene.contact(RigidContact::new(RigidFace::half_space(1, End::Lo, 0.0).unwrap(), barrier));
+        }
+        let remedy = Fbar::new(form).onto(Onto::Patches);
+        let mut solver = Solver::<2, 3, Gimp>::new(scene, settings.remedy(Box::new(remedy))).unwrap();
+        with_threads(threads, || solver.advance(40).unwrap());
+        let (p, work) = (solver.particles().clone(), solver.work());
+        assert!(p.len() > CHUNK && work.sorts > 1, "{} sorts", work.sorts);
+        ((p.position, p.j_bar, p.stress), work.projections)
+    };
+    for form in [Form::Recursive, Form::Total, Form::Rate, Form::Bbar, Form::Consistent] {
+        let (pass, counted) = run(form, false, 1);
+        assert!(pass == run(form, true, 1).0, "{form:?}");
+        assert!((pass, counted) == run(form, false, 3), "{form:?} on three threads");
+        let each = if matches!(form, Form::Bbar) { 2 } else { 1 };
+        assert!(counted == 40 * each || form == Form::Consistent, "{form:?}: {counted} averages");
+    }
 }
 
 /// A remedy that changes the pressure of the force: here the force sees no mean stress at all.

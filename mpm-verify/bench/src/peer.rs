@@ -2,7 +2,7 @@
 
 use crate::measured::Sample;
 use crate::turn::{Error, Outcome, Timed, Turn};
-use crate::workload::{Block, STEPS, standard};
+use crate::workload::{Block, REMEDIES, STEPS, standard};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -55,9 +55,9 @@ impl Peers {
 
     /// Idiomatic and tuned Taichi of every workload on each number of threads, to be the same as those that are there.
     pub(super) fn turns(&self, threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
-        for fbar in [false, true] {
-            self.turns_of(standard::<2>(fbar), threads, turns)?;
-            self.turns_of(standard::<3>(fbar), threads, turns)?;
+        for remedy in REMEDIES.into_iter().take(2) {
+            self.turns_of(standard::<2>(remedy), threads, turns)?;
+            self.turns_of(standard::<3>(remedy), threads, turns)?;
         }
         Ok(())
     }
@@ -95,7 +95,7 @@ impl Peers {
         command.args(["--dimension", &D.to_string()]);
         command.args(["--cells", &block.cells.to_string()]);
         command.args(["--threads", &threads.to_string()]);
-        command.args(block.fbar.then_some("--fbar"));
+        command.args((block.remedy != REMEDIES[0]).then_some("--fbar"));
         command.args(tuned.then_some("--tuned"));
         command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = command.spawn().map_err(failed)?;
@@ -180,7 +180,7 @@ mod tests {
     }
 
     fn start(peers: &Peers) -> Result<Peer, Error> {
-        peers.start("a peer", standard::<2>(true), true, 1)
+        peers.start("a peer", standard::<2>(REMEDIES[1]), true, 1)
     }
 
     #[test]

@@ -107,7 +107,9 @@ fn two_threads_come_to_the_same_bits_and_the_aims_are_told() {
     let mut bench = Measurements(take_turns(turns, 1, &|_| ()).unwrap());
     assert!(bench.0.iter().all(|m| m.same != Some(false)));
     let told: Vec<String> = aims::of(&bench).into_iter().map(|a| a.what).collect();
-    assert!(told.iter().any(|w| w.starts_with("2. W2F over W2")), "{told:?}");
+    for with in ["W2F", "W2P"] {
+        assert!(told.iter().any(|w| w.starts_with(&format!("2. {with} over W2"))), "{told:?}");
+    }
     assert!(told.iter().any(|w| w.ends_with("same bits")), "{told:?}");
     // Bits that differ are told, and the aim is missed however fast it was.
     for m in &mut bench.0 {

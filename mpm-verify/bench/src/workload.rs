@@ -1,5 +1,5 @@
-//! Blocks that fly and deform, of one size with those that other programs are measured with: W2 and W3, and with F̄ W2F and
-//! W3F; and the same in many sizes.
+//! Blocks that fly and deform, of one size with those that other programs are measured with: W2 and W3, with the published F̄
+//! W2F and W3F, with averages over patches W2P and W3P; and the first four in many sizes.
 //!
 //! A square or cube of `cells` cells, two particles per cell and direction, neo-Hookean (E = 10⁵ Pa, ν = 0.3,
 //! 1000 kg/m³), with a smooth velocity field; h = 1/280 m, Δt = 0.1 h/c; FLIP, quadratic B-splines. The room around it is
@@ -7,6 +7,7 @@
 
 use crate::local::{Local, Steps};
 use crate::turn::{Error, Turn, on_threads};
+use mpm_core::explicit::remedy::{Form, Onto};
 use mpm_core::explicit::{Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Axis, Bodies, Grid, Particles, Scene, Simulation};
@@ -29,19 +30,28 @@ const UPDATES: u64 = 2_000_000;
 pub(super) struct Block<const D: usize> {
     /// Cells along each axis.
     pub(super) cells: usize,
-    /// The recursive F̄, or none.
-    pub(super) fbar: bool,
+    /// One of [`REMEDIES`].
+    pub(super) remedy: RemedyName,
 }
 
+/// Those of blocks, the peers' first.
+pub(super) const REMEDIES: [RemedyName; 3] =
+    [RemedyName::None, RemedyName::FbarRecursive, RemedyName::Other(Form::Bbar, Onto::Patches)];
+
 /// The block of 230,400 particles in two dimensions and that of 314,432 in three.
-pub(super) const fn standard<const D: usize>(fbar: bool) -> Block<D> {
+pub(super) const fn standard<const D: usize>(remedy: RemedyName) -> Block<D> {
     let cells = if D == 2 { 240 } else { 34 };
-    Block { cells, fbar }
+    Block { cells, remedy }
 }
 
 impl<const D: usize> Block<D> {
     pub(super) fn name(&self) -> String {
-        format!("W{D}{}", if self.fbar { "F" } else { "" })
+        let suffix = match self.remedy {
+            RemedyName::None => "",
+            RemedyName::FbarRecursive => "F",
+            _ => "P",
+        };
+        format!("W{D}{suffix}")
     }
 
     pub(super) fn particles(&self) -> u64 {
@@ -66,13 +76,9 @@ impl<const D: usize> Block<D> {
         for (v, x) in particles.velocity.iter_mut().zip(&particles.position) {
             *v = velocity(x);
         }
-        let remedy = match self.fbar {
-            true => RemedyName::FbarRecursive,
-            false => RemedyName::None,
-        };
         let scene = Scene::new(Grid::new(H, [axis; D])?, Bodies::new(law, particles)?);
-        let scheme = Scheme::flip(BasisName::Bspline2, remedy);
-        let settings = Settings::new(dt).remedy(remedy.build());
+        let scheme = Scheme::flip(BasisName::Bspline2, self.remedy);
+        let settings = Settings::new(dt).remedy(self.remedy.build());
         Ok(solver(scheme, scene, settings)?)
     }
 
@@ -105,11 +111,11 @@ fn velocity<const D: usize>(x: &[f64; D]) -> [f64; D] {
     })
 }
 
-/// W2, W2F, W3 and W3F.
+/// The standard blocks.
 pub(super) fn turns(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
-    for fbar in [false, true] {
-        standard::<2>(fbar).on_threads("workload", STEPS, threads, turns)?;
-        standard::<3>(fbar).on_threads("workload", STEPS, threads, turns)?;
+    for remedy in REMEDIES {
+        standard::<2>(remedy).on_threads("workload", STEPS, threads, turns)?;
+        standard::<3>(remedy).on_threads("workload", STEPS, threads, turns)?;
     }
     Ok(())
 }
@@ -120,7 +126,8 @@ pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error> {
         2 => [50, 89, 158, 281, 500, 889],
         _ => [11, 16, 23, 34, 50, 73],
     };
-    let blocks = cells.into_iter().flat_map(|cells| [false, true].map(|fbar| Block::<D> { cells, fbar }));
+    let remedies = REMEDIES.into_iter().take(2);
+    let blocks = cells.into_iter().flat_map(|cells| remedies.clone().map(move |remedy| Block::<D> { cells, remedy }));
     blocks
         .map(|block| {
             let steps = UPDATES.div_ceil(block.particles());
@@ -132,8 +139,8 @@ pub(super) fn scaling<const D: usize>() -> Result<Vec<Turn>, Error> {
 /// Blocks of 400 particles on each number of threads.
 #[cfg(test)]
 pub(super) fn small(threads: &[usize], turns: &mut Vec<Turn>) -> Result<(), Error> {
-    for fbar in [false, true] {
-        let block = Block::<2> { cells: 10, fbar };
+    for remedy in REMEDIES {
+        let block = Block::<2> { cells: 10, remedy };
         block.on_threads("workload", STEPS, threads, turns)?;
     }
     Ok(())
