@@ -8,6 +8,7 @@ mod bodies;
 mod contact;
 mod execution;
 mod footing;
+mod implicit;
 mod laws;
 mod mapping;
 mod memory;

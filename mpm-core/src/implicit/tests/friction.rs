@@ -76,7 +76,7 @@ pub(super) fn stick(barrier: Barrier) -> f64 {
 /// A block on a slope whose tangent is `slope` from the time one (s) on and zero before, with 1 m/s² across it.
 pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
     let axes = [Axis::open(0.0, 8 * CELLS), Axis::open(0.0, CELLS + 4)];
-    let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
+    let mut scene = filled(axes, CELLS, rubber());
     for x in &mut scene.bodies.particles.position {
         *x = x.map(|x| x + 2.0 * H);
     }
@@ -299,10 +299,8 @@ fn friction_with_f_bar_has_to_be_rough() {
     let force = rough.on(Part::Contact(0)).force;
     let slope = 2.0 * MU * MASS;
     assert!((force[0] - slope).abs() < 1e-9 * MASS, "{force:?}");
-    let scene = Scene {
-        contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))],
-        ..full(CELLS, Places::Uniform, rubber())
-    };
+    let scene =
+        Scene { contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))], ..full(CELLS, rubber()) };
     let error = Block::new::<Quadratics<2>>(scene, settings).err().unwrap().to_string();
     assert!(error.contains("friction coefficient") && error.contains("0.3"), "{error}");
 }

@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 /// A strained body with free faces, held at one end, on a trial of random increments.
 pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, remedy: Remedy) -> Solver<D> {
     let f = SMatrix::<f64, D, D>::from_fn(|i, j| f64::from(u8::from(i == j)) + 0.04 * noise(3 * i + j + 1));
-    let mut scene = full::<D, _>(CELLS, Places::Uniform, law);
+    let mut scene = full::<D, _>(CELLS, law);
     scene.bodies.particles = scene.bodies.particles.deformed(|x| (*x, f));
     scene.bodies = Bodies::new(scene.bodies.each[0].law.clone(), scene.bodies.particles).unwrap();
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
@@ -117,7 +117,7 @@ fn stiffness_is_symmetric_where_there_is_a_potential() {
 /// Pressures of nodes that are eliminated from what preconditions, Eq. (13), resist a strain that is alike everywhere
 /// as the average does, except for the share that is kept where averages see nothing.
 fn eliminated_pressures_resist_as_averages_do<const D: usize, I: Interpolation<D>>() {
-    let scene = full::<D, _>(CELLS, Places::Uniform, NeoHookean::new(YOUNG, 0.49).unwrap());
+    let scene = full::<D, _>(CELLS, NeoHookean::new(YOUNG, 0.49).unwrap());
     let wall = Wall::new(0, End::Lo, WallKind::Fixed);
     let settings = Settings::new(1.0).remedy(Remedy::FbarConsistent);
     let solver = Solver::<D>::new::<I>(scene.constrain(wall), settings).unwrap();

@@ -1,7 +1,7 @@
 //! Where a step is looked for.
 
 use super::*;
-use crate::stage::RigidNodes;
+use mpm_core::stage::RigidNodes;
 
 /// The ground under a strip that sinks into it.
 fn pressed() -> Solver<2> {
