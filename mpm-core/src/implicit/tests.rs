@@ -9,6 +9,7 @@ use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
 use crate::material::{Law, shared};
 use crate::memory::Memory;
+use crate::projection::Onto;
 use crate::stage::{BodyForce, End, Wall, WallKind};
 use nalgebra::SMatrix;
 

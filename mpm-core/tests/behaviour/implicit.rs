@@ -3,6 +3,7 @@
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::implicit::{Interpolation, Remedy, Settings, Solver, Stabilisation, TimeRule};
 use mpm_core::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength, shared};
+use mpm_core::projection::Onto;
 use mpm_core::space::embed;
 use mpm_core::stage::{BodyForce, Constraint, End, Wall, WallKind};
 use mpm_core::{
@@ -33,6 +34,7 @@ macro_rules! every_basis {
 }
 
 // After the macro, which they use.
+mod cells;
 mod dynamics;
 mod guess;
 
@@ -262,24 +264,29 @@ fn ground() -> Scene<2> {
     filled(axes, 8, Places::Uniform, law).constrain_all([roller(0, End::Lo), roller(0, End::Hi), roller(1, End::Lo)])
 }
 
-fn in_two_steps(scene: Scene<2>, remedy: Remedy) -> Solver<2> {
-    let settings = Settings::new(0.5).remedy(remedy).stabilised(Stabilisation::Ghost(0.01));
+fn in_two_steps(scene: Scene<2>, remedy: Remedy, onto: Onto) -> Solver<2> {
+    let settings = Settings::new(0.5).remedy(remedy).onto(onto).stabilised(Stabilisation::Ghost(0.01));
     Solver::new::<Quadratics<2>>(scene, settings).unwrap()
 }
 
 /// The ground under its weight.
-fn loaded(remedy: Remedy) -> Solver<2> {
+fn loaded(remedy: Remedy, onto: Onto) -> Solver<2> {
     let weight = BodyForce(Box::new(|_, t| [0.0, -4.0 * t]));
-    in_two_steps(ground().load(weight), remedy)
+    in_two_steps(ground().load(weight), remedy, onto)
 }
 
 #[test]
 fn the_number_of_threads_changes_no_bit() {
-    for remedy in [Remedy::None, Remedy::Bbar, Remedy::FbarConsistent] {
+    for (remedy, onto) in [
+        (Remedy::None, Onto::Basis),
+        (Remedy::Bbar, Onto::Basis),
+        (Remedy::FbarConsistent, Onto::Basis),
+        (Remedy::FbarConsistent, Onto::Cells),
+    ] {
         let with = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
             pool.build().unwrap().install(|| {
-                let mut solver = loaded(remedy);
+                let mut solver = loaded(remedy, onto);
                 solver.advance(2).unwrap();
                 assert!(solver.field(Field::PlasticStrain).iter().any(|e| *e > 0.0));
                 (bits(&solver), solver.work())
@@ -291,16 +298,19 @@ fn the_number_of_threads_changes_no_bit() {
 
 #[test]
 fn a_run_that_was_stopped_goes_on_as_if_it_had_not() {
-    let mut straight = loaded(Remedy::FbarConsistent);
-    straight.step().unwrap();
-    let saved = straight.save().unwrap();
-    straight.step().unwrap();
-    let mut resumed = loaded(Remedy::FbarConsistent);
-    resumed.restore(&saved).unwrap();
-    resumed.step().unwrap();
-    assert_eq!(bits(&straight), bits(&resumed));
-    assert_eq!(straight.time(), resumed.time());
-    assert_eq!(straight.totals(), resumed.totals());
+    for onto in [Onto::Basis, Onto::Cells] {
+        let fresh = || loaded(Remedy::FbarConsistent, onto);
+        let mut straight = fresh();
+        straight.step().unwrap();
+        let saved = straight.save().unwrap();
+        straight.step().unwrap();
+        let mut resumed = fresh();
+        resumed.restore(&saved).unwrap();
+        resumed.step().unwrap();
+        assert_eq!(bits(&straight), bits(&resumed));
+        assert_eq!(straight.time(), resumed.time());
+        assert_eq!(straight.totals(), resumed.totals());
+    }
 }
 
 /// A step whose loads are stored and given: the work of the loads is the energy stored, of a step of dead loads by the

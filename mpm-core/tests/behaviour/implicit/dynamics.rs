@@ -9,7 +9,7 @@ const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 const DT: f64 = 0.01;
 
 /// A block in the middle of a grid of `CELLS` + 4 cells that turns, stretches and drifts.
-fn tumbling<M: Law + 'static>(law: M) -> Scene<2> {
+pub(super) fn tumbling<M: Law + 'static>(law: M) -> Scene<2> {
     let mut scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, law);
     let shift = 2.0 * H;
     let p = &mut scene.bodies.particles;

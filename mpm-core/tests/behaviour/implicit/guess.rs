@@ -11,7 +11,7 @@ fn pressed() -> Solver<2> {
         velocity: [Some(0.0), Some(-0.05)],
         ramp: 0.0,
     };
-    in_two_steps(ground().constrain(strip), Remedy::FbarConsistent)
+    in_two_steps(ground().constrain(strip), Remedy::FbarConsistent, Onto::Basis)
 }
 
 #[test]

@@ -56,7 +56,9 @@ fn schemes(dimension: usize) -> Vec<String> {
             all.extend(transfers.iter().map(|transfer| format!("{basis}-{remedy}-{transfer}")));
         }
         for rule in ["quasi-static", "midpoint", "newmark"] {
-            all.extend(["none", "fbar-consistent", "bbar"].map(|remedy| format!("{rule}-{basis}-{remedy}")));
+            all.extend(
+                ["none", "fbar-consistent", "bbar", "bbar-cells"].map(|remedy| format!("{rule}-{basis}-{remedy}")),
+            );
         }
     }
     for basis in &bases[..2] {
