@@ -29,7 +29,7 @@ pub(super) struct Step<'a, const D: usize> {
     pub(super) unknowns: &'a Unknowns<D>,
     pub(super) penalties: &'a [Penalty],
     /// A, with F̄.
-    pub(super) average: Option<&'a Average>,
+    pub(super) average: Option<&'a Average<D>>,
     /// Inertia, in dynamics.
     pub(super) inertia: Option<&'a Inertia<D>>,
     /// Rigid bodies where the equations hold.
@@ -180,8 +180,8 @@ impl<const D: usize> Step<'_, D> {
         tangents
     }
 
-    /// The entries of the stiffness matrix, Eq. (5); with F̄ of what preconditions it, Eq. (13), where a node's
-    /// pressure comes after its displacements.
+    /// The entries of the stiffness matrix, Eq. (5), and of Eq. (11) onto cells; with F̄ onto other functions of what
+    /// preconditions it, Eq. (13), where a node's pressure comes after its displacements.
     pub(super) fn stiffness(&self, tangents: &[Tangent<D>], pattern: &Pattern) -> Vec<f64> {
         let mut values = vec![0.0; pattern.entries()];
         let (unknowns, elements, width) = (self.unknowns, self.elements, pattern.width);
@@ -219,12 +219,27 @@ impl<const D: usize> Step<'_, D> {
                 add(elements.nodes_of(element), matrix);
             }
         }
+        let cells = self.average.map_or(&[][..], |average| &average.cells);
+        for batch in cells.chunks(BATCH) {
+            let matrices = map(batch.len(), 1, |k| {
+                let volume = &self.bodies.particles.volume;
+                batch[k].stiffness(elements, volume, tangents, self.unseen())
+            });
+            for (cell, matrix) in batch.iter().zip(&matrices) {
+                add(&cell.node, matrix);
+            }
+        }
         for Penalty { node, stiffness } in self.penalties {
             add(node, stiffness);
         }
         self.add_lumped(pattern, &mut values);
         self.stand_in(pattern, &mut values);
         values
+    }
+
+    /// The share of a field that an average cannot see which it keeps.
+    fn unseen(&self) -> f64 {
+        self.average.map_or(0.0, Average::unseen)
     }
 
     /// The lumped share of c M.
@@ -272,17 +287,26 @@ impl<const D: usize> Step<'_, D> {
     fn of_element(&self, element: usize, tangents: &[Tangent<D>], width: usize) -> DMatrix<f64> {
         let size = self.elements.nodes_of(element).len() * width;
         let mut matrix = DMatrix::zeros(size, size);
+        let unseen = self.unseen();
+        // Onto cells all of Eq. (11).
+        let alone = unseen > 0.0 && width == D;
         for p in self.elements.particles[element].clone() {
             let t = &tangents[p];
-            let own = self.average.map_or(0.0, Average::unseen).powi(2) * t.pull_by_a;
+            let own = unseen.powi(2) * t.pull_by_a;
             let (_, w, dw) = self.elements.seen(p);
             let volume = |g: &[f64; D], b: usize| dot(&t.cofactor[b], g);
             let inertia = self.inertia.map_or(0.0, |i| i.factor * i.mass.shared(p));
             for (j, g) in dw.iter().enumerate() {
                 for b in 0..D {
                     let change = volume(g, b);
-                    let column: Square<D> =
+                    let mut column: Square<D> =
                         from_fn(|a| from_fn(|c| dot(&t.stress_by_f[a][c][b], g) + own * t.cofactor[a][c] * change));
+                    if alone {
+                        let pull = dot(&t.pull_by_f[b], g);
+                        for (a, c) in (0..D * D).map(|k| (k / D, k % D)) {
+                            column[a][c] += unseen * (t.stress_by_a[a][c] * change + t.cofactor[a][c] * pull);
+                        }
+                    }
                     for (i, f) in dw.iter().enumerate() {
                         for a in 0..D {
                             let m = if a == b { inertia } else { 0.0 };

@@ -11,6 +11,7 @@
 pub(crate) mod algebra;
 mod average;
 mod cause;
+mod cells;
 mod commit;
 mod contact;
 mod domains;
@@ -99,7 +100,7 @@ struct Setting<const D: usize> {
     penalties: Vec<Penalty>,
     unknowns: Unknowns<D>,
     pattern: Pattern,
-    average: Option<Average>,
+    average: Option<Average<D>>,
     inertia: Option<Inertia<D>>,
     obstacles: Vec<Obstacle<D>>,
 }
@@ -205,11 +206,11 @@ impl<const D: usize> Setting<D> {
 
 impl<const D: usize> Solver<D> {
     /// The functions at the particles, and the average.
-    fn averaging(&self) -> (Elements<D>, Average) {
+    fn averaging(&self) -> (Elements<D>, Average<D>) {
         let particles = &self.scene.bodies.particles;
         let elements = Elements::new(self.functions.as_ref(), &self.originals, Domains::of(particles));
         let sharp = self.settings.remedy == Remedy::FbarConsistent;
-        let average = Average::new(&elements, self.functions.len(), &particles.volume, sharp);
+        let average = Average::onto(self.settings.onto, self.functions.as_ref(), &elements, particles, sharp);
         (elements, average)
     }
 
@@ -238,9 +239,10 @@ impl<const D: usize> Solver<D> {
         };
         let nodes = self.functions.len();
         let unknowns = Unknowns::new((nodes, self.functions.grid().h), &elements, &penalties, prescribed);
-        let averages = self.settings.remedy != Remedy::None;
-        let width = D + usize::from(averages);
-        let pattern = Pattern::new(width, &unknowns, &elements, &penalties);
+        let average = Some(average).filter(|_| self.settings.remedy != Remedy::None);
+        let width = D + usize::from(average.as_ref().is_some_and(Average::spreads));
+        let cells = average.iter().flat_map(|average| &average.cells).map(|cell| &cell.node);
+        let pattern = Pattern::new(width, &unknowns, &elements, penalties.iter().map(|p| &p.node).chain(cells));
         let inertia = Inertia::of(self.settings.rule, dt, &elements, nodes, particles);
         Setting {
             obstacles: self.obstacles(self.ledger.time + place * dt),
@@ -249,7 +251,7 @@ impl<const D: usize> Solver<D> {
             penalties,
             unknowns,
             pattern,
-            average: averages.then_some(average),
+            average,
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::newton::check_tolerance;
 use crate::error::{Error, positive, require};
+use crate::projection::Onto;
 
 /// Stabilisation of functions that see hardly any material. It acts on the increment of a step, so that its contribution
 /// to equilibrium vanishes with the step.
@@ -105,6 +106,8 @@ pub struct Settings {
     pub rule: TimeRule,
     /// The locking remedy.
     pub remedy: Remedy,
+    /// The functions that the remedy averages with.
+    pub onto: Onto,
     /// Stabilisation of functions that see hardly any material.
     pub stabilisation: Stabilisation,
     /// A step has converged when the free nodes' residual is at most this share of the loads; where a constraint moves,
@@ -124,6 +127,7 @@ impl Settings {
             dt,
             rule: TimeRule::Static,
             remedy: Remedy::None,
+            onto: Onto::Basis,
             stabilisation: Stabilisation::None,
             tolerance: 1e-9,
             most_iterations: 25,
@@ -147,6 +151,12 @@ impl Settings {
     #[must_use]
     pub fn remedy(self, remedy: Remedy) -> Self {
         Self { remedy, ..self }
+    }
+
+    /// With averages onto other functions.
+    #[must_use]
+    pub fn onto(self, onto: Onto) -> Self {
+        Self { onto, ..self }
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {

@@ -8,6 +8,7 @@ use crate::error::{Error, require};
 use crate::ledger::Ledger;
 use crate::material::AnyLaw;
 use crate::monitor::Convergence;
+use crate::projection::Onto;
 use crate::room::Room;
 use crate::scene::Scene;
 use nalgebra::Matrix3;
@@ -28,6 +29,8 @@ impl<const D: usize> Solver<D> {
         contact::check(&scene.contacts, &scene.grid, settings.remedy)?;
         held::check(&scene.constraints)?;
         let averages = settings.remedy != Remedy::None;
+        let offered = !averages || matches!(settings.onto, Onto::Basis | Onto::Hats | Onto::Cells);
+        require(offered, "averages of an implicit run onto blocks or patches", 1.0, "0: the basis, hats or cells")?;
         let laws = || scene.bodies.each.iter().map(|body| &body.law);
         let one = !averages || scene.bodies.each.len() == 1;
         require(

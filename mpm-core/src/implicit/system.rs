@@ -1,6 +1,7 @@
 //! The equations of a step for Newton's method.
 
 use super::algebra::{dot, norm};
+use super::average::Average;
 use super::equilibrium::{Step, Trial};
 use super::failure::Failure;
 use super::linear::Linear;
@@ -74,7 +75,7 @@ impl<const D: usize> Equations for System<'_, D> {
             self.linear.factorise(&values, iteration)?;
         }
         let begun = Instant::now();
-        let found = if step.average.is_some() {
+        let found = if step.average.is_some_and(Average::spreads) {
             let enough = 0.1 * self.settings.tolerance / from.share;
             let accuracy = from.share.min(COARSE).max(enough).max(1e-12);
             let before = self.linear.ledger.work.linear_iterations;

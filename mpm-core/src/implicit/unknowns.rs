@@ -74,12 +74,12 @@ pub(crate) struct Pattern {
 }
 
 impl Pattern {
-    /// Pattern of matrices with `width` components a node.
-    pub(crate) fn new<const D: usize>(
+    /// Pattern of matrices with `width` components a node, which join the nodes of every element and `others`.
+    pub(crate) fn new<'a, const D: usize>(
         width: usize,
         unknowns: &Unknowns<D>,
         elements: &Elements<D>,
-        penalties: &[Penalty],
+        others: impl Iterator<Item = &'a Vec<usize>>,
     ) -> Self {
         let mut beside: Vec<Vec<usize>> = vec![Vec::new(); unknowns.node.len()];
         let mut join = |nodes: &[usize]| {
@@ -91,9 +91,7 @@ impl Pattern {
         for element in 0..elements.particles.len() {
             join(elements.nodes_of(element));
         }
-        for penalty in penalties {
-            join(&penalty.node);
-        }
+        others.for_each(|nodes| join(nodes));
         let mut pattern = Self { width, begin: vec![0], row: Vec::new() };
         for (k, beside) in beside.iter_mut().enumerate() {
             beside.sort_unstable();

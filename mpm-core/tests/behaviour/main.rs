@@ -8,6 +8,7 @@ mod bodies;
 mod contact;
 mod execution;
 mod footing;
+mod implicit;
 mod lattice;
 mod laws;
 mod mapping;

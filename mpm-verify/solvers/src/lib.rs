@@ -4,7 +4,7 @@ pub mod scheme;
 pub mod trial;
 
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use mpm_core::explicit::remedy::{Form, Onto};
+use mpm_core::explicit::remedy::Form;
 use mpm_core::explicit::transfer::{Apic, Musl, Xpic};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::implicit::{self, Interpolation, OfHats, Serendipity};
@@ -97,7 +97,7 @@ macro_rules! solvable {
                 let Scheme::Implicit(parts) = scheme else {
                     return Err(other_solver("an implicit one"));
                 };
-                let settings = settings.remedy(implicit_remedy(parts.remedy)?);
+                let settings = averaged(settings, parts.remedy)?;
                 match parts.basis {
                     BasisName::Linear => balanced::<$dimension, Lattice<$dimension, 2, Linear>>(self, settings),
                     BasisName::Gimp => balanced::<$dimension, Lattice<$dimension, 3, Gimp>>(self, settings),
@@ -171,15 +171,17 @@ fn soaked<const D: usize, I: OfHats<D>>(scene: Scene<D>, water: Water<D>, settin
     Ok(Box::new(poro::Solver::new::<I>(scene, water, settings)?))
 }
 
-fn implicit_remedy(remedy: RemedyName) -> Result<implicit::Remedy, Error> {
+/// Settings with a remedy, and the functions that it averages with.
+fn averaged(settings: implicit::Settings, remedy: RemedyName) -> Result<implicit::Settings, Error> {
     match remedy {
-        RemedyName::None => Ok(implicit::Remedy::None),
-        RemedyName::FbarConsistent => Ok(implicit::Remedy::FbarConsistent),
-        RemedyName::Other(Form::Bbar, Onto::Basis) => Ok(implicit::Remedy::Bbar),
+        RemedyName::None => Ok(settings.remedy(implicit::Remedy::None)),
+        RemedyName::FbarConsistent => Ok(settings.remedy(implicit::Remedy::FbarConsistent)),
+        RemedyName::Other(Form::Consistent, onto) => Ok(settings.remedy(implicit::Remedy::FbarConsistent).onto(onto)),
+        RemedyName::Other(Form::Bbar, onto) => Ok(settings.remedy(implicit::Remedy::Bbar).onto(onto)),
         other => Err(Error::Input {
             what: "place in the list of remedies, of the one of an implicit run,",
             value: RemedyName::NAMES.iter().take_while(|name| **name != other.text()).count() as f64,
-            allowed: "0, 4 or 5, none, fbar-consistent or bbar: implicit solvers have no other",
+            allowed: "that of none, or of fbar-consistent or bbar onto the basis, hats or cells",
         }),
     }
 }

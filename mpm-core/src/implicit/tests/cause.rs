@@ -9,7 +9,7 @@ fn cause_of(scene: Scene<2>, settings: Settings) -> Cause {
 
 #[test]
 fn a_body_that_is_held_is_sound() {
-    let scene = standing::<2, _>(4, Places::Uniform, rubber(), 1.0);
+    let scene = standing::<2, _>(4, rubber(), 1.0);
     let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(GHOST)));
     assert!(matches!(cause, Cause::Sound(share) if share > 0.5 && share < 1.5), "{cause:?}");
 }
@@ -25,7 +25,7 @@ fn a_hair_is_told_from_the_body() {
 
 #[test]
 fn a_body_that_nothing_holds_is_loose() {
-    let scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, Places::Uniform, rubber());
+    let scene = filled([Axis::open(0.0, CELLS + 4); 2], CELLS, rubber());
     let cause = cause_of(scene, Settings::new(1.0).stabilised(Stabilisation::Ghost(GHOST)));
     assert!(matches!(cause, Cause::Loose(_, share) if share == 1.0), "{cause:?}");
     assert!(cause.to_string().contains("add a support"));
@@ -35,7 +35,7 @@ fn a_body_that_nothing_holds_is_loose() {
 #[test]
 fn a_part_that_has_come_off_is_named() {
     let axes = [Axis::walls(0.0, 4), Axis::bounded(0.0, 9, (Side::Wall, Side::Open))];
-    let mut scene = filled(axes, 4, Places::Uniform, rubber());
+    let mut scene = filled(axes, 4, rubber());
     for x in scene.bodies.particles.position.iter_mut().filter(|x| x[1] > 2.0 * H) {
         x[1] += 3.0 * H;
     }
@@ -53,7 +53,7 @@ fn a_body_at_its_limit_load_gives_way() {
     let law = HenckyJ2::new(YOUNG, POISSON, Strength::undrained(1e-3 * YOUNG).unwrap()).unwrap();
     let axes = [Axis::periodic(0.0, CELLS), Axis::bounded(0.0, CELLS + 2, (Side::Wall, Side::Open))];
     let limit = 1e-3 * YOUNG / (CELLS as f64 * H * 1000.0);
-    let scene = filled(axes, CELLS, Places::Uniform, law)
+    let scene = filled(axes, CELLS, law)
         .constrain(Wall::new(1, End::Lo, WallKind::Fixed))
         .load(BodyForce(Box::new(move |_, t| [limit * t, 0.0])));
     let settings = Settings::new(0.1).stabilised(Stabilisation::Ghost(GHOST));

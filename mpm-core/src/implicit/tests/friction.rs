@@ -1,7 +1,7 @@
 //! Coulomb friction: its tangent, rest without creep, and a block on a slope that slides at its angle.
 
 use super::contact::{DISTANCE, floor, rubber};
-use super::stiffness::{slope_of_the_forces, strained};
+use super::stiffness::{REMEDIES, slope_of_the_forces, strained};
 use super::*;
 use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::simulation::Part;
@@ -22,7 +22,7 @@ type Block = Solver<2>;
 /// particles that touch do the same.
 fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
     law: M,
-    remedy: Remedy,
+    remedy: (Remedy, Onto),
     friction: Friction,
 ) {
     let mut solver = strained::<D, I, M>(law, remedy);
@@ -44,7 +44,7 @@ fn tangent_has_friction<const D: usize, I: Interpolation<D>, M: Law + 'static>(
         assert_eq!(push.stretch == before, friction.coefficient().is_none());
         assert!(push.force[0] < 0.0);
     }
-    slope_of_the_forces(&solver, remedy);
+    slope_of_the_forces(&solver);
 }
 
 fn particles_of<const D: usize>(solver: &Solver<D>) -> usize {
@@ -54,18 +54,18 @@ fn particles_of<const D: usize>(solver: &Solver<D>) -> usize {
 #[test]
 fn the_tangent_of_a_stick_is_the_slope_of_its_forces() {
     let rough = Friction::rough(3e3).unwrap();
-    for remedy in [Remedy::None, Remedy::FbarConsistent] {
+    for remedy in [REMEDIES[0], REMEDIES[1], REMEDIES[4]] {
         every_basis!(tangent_has_friction, 2, rubber(), remedy, rough);
     }
-    tangent_has_friction::<3, Means<3>, _>(rubber(), Remedy::None, rough);
+    tangent_has_friction::<3, Means<3>, _>(rubber(), REMEDIES[0], rough);
 }
 
 #[test]
 fn the_tangent_of_a_slip_is_the_slope_of_its_forces() {
     // μN/k_t is at most a few tenths of the stretch.
     let slippery = Friction::new(MU, 1e6).unwrap();
-    every_basis!(tangent_has_friction, 2, rubber(), Remedy::None, slippery);
-    tangent_has_friction::<3, Means<3>, _>(rubber(), Remedy::None, slippery);
+    every_basis!(tangent_has_friction, 2, rubber(), REMEDIES[0], slippery);
+    tangent_has_friction::<3, Means<3>, _>(rubber(), REMEDIES[0], slippery);
 }
 
 /// The stiffness of a stick (N/m), as that of the barrier where it works.
@@ -76,7 +76,7 @@ pub(super) fn stick(barrier: Barrier) -> f64 {
 /// A block on a slope whose tangent is `slope` from the time one (s) on and zero before, with 1 m/s² across it.
 pub(super) fn block(slope: f64, friction: impl Fn(f64) -> Friction, settings: Settings) -> Block {
     let axes = [Axis::open(0.0, 8 * CELLS), Axis::open(0.0, CELLS + 4)];
-    let mut scene = filled(axes, CELLS, Places::Uniform, rubber());
+    let mut scene = filled(axes, CELLS, rubber());
     for x in &mut scene.bodies.particles.position {
         *x = x.map(|x| x + 2.0 * H);
     }
@@ -299,10 +299,8 @@ fn friction_with_f_bar_has_to_be_rough() {
     let force = rough.on(Part::Contact(0)).force;
     let slope = 2.0 * MU * MASS;
     assert!((force[0] - slope).abs() < 1e-9 * MASS, "{force:?}");
-    let scene = Scene {
-        contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))],
-        ..full(CELLS, Places::Uniform, rubber())
-    };
+    let scene =
+        Scene { contacts: vec![rough.scene.contacts[0].clone().with_friction(coulomb(1.0))], ..full(CELLS, rubber()) };
     let error = Block::new::<Quadratics<2>>(scene, settings).err().unwrap().to_string();
     assert!(error.contains("friction coefficient") && error.contains("0.3"), "{error}");
 }

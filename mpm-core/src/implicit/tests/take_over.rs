@@ -33,7 +33,7 @@ fn a_block_that_rests_on_its_sticks_rests_in_the_next_run() {
 /// A block between rollers, on a floor if there is one, of `rows` rows of particles.
 fn pile(rows: usize, rule: TimeRule, lies: bool) -> Solver<2> {
     let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
-    let whole = filled(axes, CELLS, Places::Uniform, rubber());
+    let whole = filled(axes, CELLS, rubber());
     let mut seeded = whole.bodies.particles.position.clone();
     seeded.truncate(rows * 2 * CELLS);
     for x in &mut seeded {
@@ -111,7 +111,7 @@ fn hanging(strength: f64, rule: TimeRule, dt: f64) -> Solver<2> {
     let rollers = [0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller));
     let rises = rule == TimeRule::Static;
     let gravity = move |time: f64| [0.0, if rises { time } else { 1.0 }];
-    let scene = filled(axes, CELLS, Places::Uniform, law).constrain_all(rollers).load(Gravity(Box::new(gravity)));
+    let scene = filled(axes, CELLS, law).constrain_all(rollers).load(Gravity(Box::new(gravity)));
     let settings = Settings::new(dt).rule(rule).stabilised(Stabilisation::Ghost(0.01));
     Solver::new::<Means<2>>(scene, settings).unwrap()
 }

@@ -56,7 +56,7 @@ fn schemes(dimension: usize) -> Vec<String> {
             all.extend(transfers.iter().map(|transfer| format!("{basis}-{remedy}-{transfer}")));
         }
         for rule in ["quasi-static", "midpoint", "newmark"] {
-            all.extend(["none", "fbar-consistent", "bbar"].map(|remedy| format!("{rule}-{basis}-{remedy}")));
+            all.extend(["none", "fbar-consistent", "bbar", "bbar-cells"].map(|r| format!("{rule}-{basis}-{r}")));
         }
     }
     for basis in &bases[..2] {

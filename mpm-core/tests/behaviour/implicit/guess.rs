@@ -1,7 +1,7 @@
 //! Where a step is looked for.
 
 use super::*;
-use crate::stage::RigidNodes;
+use mpm_core::stage::RigidNodes;
 
 /// The ground under a strip that sinks into it.
 fn pressed() -> Solver<2> {
@@ -11,7 +11,7 @@ fn pressed() -> Solver<2> {
         velocity: [Some(0.0), Some(-0.05)],
         ramp: 0.0,
     };
-    in_two_steps(ground().constrain(strip), Remedy::FbarConsistent)
+    in_two_steps(ground().constrain(strip), Remedy::FbarConsistent, Onto::Basis)
 }
 
 #[test]
