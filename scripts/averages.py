@@ -140,32 +140,32 @@ def picture(tables):
     heads = [column[:2] for column in COLUMNS]
     parts, top = [], 0
 
-    def text(x, y, content, anchor="middle", colour="black", weight="normal"):
-        style = f'text-anchor="{anchor}" fill="{colour}" font-weight="{weight}"'
-        parts.append(f'<text x="{x}" y="{y}" {style}>{content}</text>')
+    def text(x, y, content, style=""):
+        parts.append(f'<text x="{x:g}" y="{y:g}"{style}>{content}</text>')
 
     for title, cells in tables.items():
-        text(4, top + 14, title, "start", weight="bold")
+        text(4, top + 14, title, ' text-anchor="start" font-weight="bold"')
         for k, pair in enumerate(heads):
             for line, head in enumerate(pair):
                 text(LEFT + (k + 0.5) * WIDTH, top + 34 + 13 * line, head)
         for row, (remedy, texts) in enumerate(cells.items()):
             y = top + TOP + row * HEIGHT
-            text(LEFT - 6, y + 12, remedy, "end")
+            text(LEFT - 6, y + 12, remedy, ' text-anchor="end"')
             for k, (content, ratio) in enumerate(texts):
                 found = [colours for most, *colours in COLOURS if ratio <= most]
                 fill, ink = found[0] if found else ("#e6550d" if ratio > 0 else "#bdbdbd" if content == "–" else "white", "black")
                 x = LEFT + k * WIDTH
                 parts.append(f'<rect x="{x}" y="{y}" width="{WIDTH - 1}" height="{HEIGHT - 1}" fill="{fill}"/>')
-                text(x + WIDTH / 2, y + 12, content, colour=ink)
+                text(x + WIDTH / 2, y + 12, content, ' fill="white"' if ink == "white" else "")
         top += TOP + HEIGHT * len(cells) + 16
     legend = [(f"up to {most:g} times the least error", fill) for most, fill, _ in COLOURS]
     for k, (said, fill) in enumerate(legend + [("more", "#e6550d"), ("breaks down", "#bdbdbd")]):
         x = 4 + 205 * k
         parts.append(f'<rect x="{x}" y="{top}" width="14" height="14" fill="{fill}"/>')
-        text(x + 20, top + 12, said, "start")
+        text(x + 20, top + 12, said, ' text-anchor="start"')
     size = (LEFT + WIDTH * len(heads) + 4, top + 22)
-    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" font-family="sans-serif" font-size="11">'
+    font = 'font-family="sans-serif" font-size="11" text-anchor="middle"'
+    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" {font}>'
     return "\n".join([start, '<rect width="100%" height="100%" fill="white"/>', *parts, "</svg>\n"])
 
 

@@ -155,7 +155,7 @@ mod tests {
 
     #[test]
     fn sums_are_told_along_every_axis() {
-        let block = Block::<3> { cells: 2, fbar: false };
+        let block = Block::<3> { cells: 2, remedy: REMEDIES[0] };
         let mut turn = block.turn("workload", STEPS, 1).unwrap();
         let sums = turn.timed.outcome().unwrap().unwrap().sums;
         let speeds = block.positions().into_iter().map(|x| velocity(&x)[2]);
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn what_a_block_holds_is_its_columns_its_weights_and_its_nodes() {
         for fbar in [false, true] {
-            let block = Block::<2> { cells: 30, fbar };
+            let block = Block::<2> { cells: 30, remedy: REMEDIES[usize::from(fbar)] };
             let mut turn = block.turn("scaling", 1, 1).unwrap();
             turn.timed.slice().unwrap();
             let held = turn.timed.held().unwrap() as f64;

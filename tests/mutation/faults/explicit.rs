@@ -50,8 +50,8 @@ pub(crate) const EXPLICIT: [Fault; 30] = [
     Fault {
         name: "the printed algorithm no longer creeps",
         file: "explicit/remedy/fbar.rs",
-        sound: "fill_with_products(next, &particles.j_bar, change)",
-        broken: "next.clone_from(if change.is_empty() { change } else { &particles.jacobian })",
+        sound: "if self.form == Form::Recursive {",
+        broken: "if self.form == Form::Recursive && { next.copy_from_slice(known.jacobian); false } {",
         seen_by: &[(RECURSIVE, "never-at-rest")],
     },
     Fault {
@@ -71,8 +71,8 @@ pub(crate) const EXPLICIT: [Fault; 30] = [
     Fault {
         name: "the increment of the volume is averaged twice",
         file: "explicit/remedy/fbar.rs",
-        sound: "average.average(particles, averaged)",
-        broken: "for _ in 0..2 { average.average(particles, averaged) }",
+        sound: "false => average(next),",
+        broken: "false => (0..2).for_each(|_| average(next)),",
         seen_by: &[(BAR, "averaging-softens")],
     },
     Fault {
