@@ -131,42 +131,41 @@ def table(results, basis, remedies):
 
 
 # Up to which ratio to the least error of a column a cell has which colour.
-COLOURS = [(BEST, "#08519c", "white"), (2, "#6baed6", "black"), (5, "#c6dbef", "black"), (20, "#fdd0a2", "black")]
-WIDTH, HEIGHT, LEFT, TOP = 50, 17, 180, 56
+COLOURS = {BEST: "#08519c", 2: "#6baed6", 5: "#c6dbef", 20: "#fdd0a2", math.inf: "#e6550d"}
+BROKEN = "#bdbdbd"
+WIDTH, HEIGHT, LEFT, TOP = 46, 15, 150, 46
 
 
 def picture(tables):
-    """The tables as an SVG, coloured by the ratio to the least error of the column."""
-    heads = [column[:2] for column in COLUMNS]
-    parts, top = [], 0
+    """The tables as an SVG of colours, by the ratio to the least error of the column."""
+    texts, boxes, top = [], {}, 0
+    coloured = [k for k, column in enumerate(COLUMNS) if column[6] < math.inf]
 
-    def text(x, y, content, style=""):
-        parts.append(f'<text x="{x:g}" y="{y:g}"{style}>{content}</text>')
+    def text(x, y, content, anchor="middle"):
+        texts.append(f'<text x="{x:g}" y="{y:g}" text-anchor="{anchor}">{content}</text>')
 
     for title, cells in tables.items():
-        text(4, top + 14, title, ' text-anchor="start" font-weight="bold"')
-        for k, pair in enumerate(heads):
-            for line, head in enumerate(pair):
-                text(LEFT + (k + 0.5) * WIDTH, top + 34 + 13 * line, head)
-        for row, (remedy, texts) in enumerate(cells.items()):
+        text(LEFT - 6, top + 12, title, "end")
+        for k, column in enumerate(COLUMNS[k] for k in coloured):
+            for line, head in enumerate(column[:2]):
+                text(LEFT + (k + 0.5) * WIDTH, top + 26 + 13 * line, head)
+        for row, (remedy, told) in enumerate(cells.items()):
             y = top + TOP + row * HEIGHT
-            text(LEFT - 6, y + 12, remedy, ' text-anchor="end"')
-            for k, (content, ratio) in enumerate(texts):
-                found = [colours for most, *colours in COLOURS if ratio <= most]
-                fill, ink = found[0] if found else ("#e6550d" if ratio > 0 else "#bdbdbd" if content == "–" else "white", "black")
-                x = LEFT + k * WIDTH
-                parts.append(f'<rect x="{x}" y="{y}" width="{WIDTH - 1}" height="{HEIGHT - 1}" fill="{fill}"/>')
-                text(x + WIDTH / 2, y + 12, content, ' fill="white"' if ink == "white" else "")
-        top += TOP + HEIGHT * len(cells) + 16
-    legend = [(f"up to {most:g} times the least error", fill) for most, fill, _ in COLOURS]
-    for k, (said, fill) in enumerate(legend + [("more", "#e6550d"), ("breaks down", "#bdbdbd")]):
-        x = 4 + 205 * k
-        parts.append(f'<rect x="{x}" y="{top}" width="14" height="14" fill="{fill}"/>')
-        text(x + 20, top + 12, said, ' text-anchor="start"')
-    size = (LEFT + WIDTH * len(heads) + 4, top + 22)
-    font = 'font-family="sans-serif" font-size="11" text-anchor="middle"'
-    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {size[0]} {size[1]}" {font}>'
-    return "\n".join([start, '<rect width="100%" height="100%" fill="white"/>', *parts, "</svg>\n"])
+            text(LEFT - 6, y + 11, remedy, "end")
+            for k, (content, ratio) in enumerate(told[k] for k in coloured):
+                found = [colour for most, colour in COLOURS.items() if ratio <= most]
+                fill = found[0] if found else BROKEN if content == "–" else None
+                boxes.setdefault(fill, []).append(f"M{LEFT + k * WIDTH} {y}h{WIDTH - 1}v{HEIGHT - 1}h{1 - WIDTH}z")
+        top += TOP + HEIGHT * len(cells) + 14
+    names = [f"up to {most:g} times the least error" for most in COLOURS if most < math.inf] + ["more", "breaks down"]
+    for k, (name, fill) in enumerate(zip(names, [*COLOURS.values(), BROKEN])):
+        text(26 + 186 * k, top + 11, name, "start")
+        boxes.setdefault(fill, []).append(f"M{6 + 186 * k} {top}h14v14h-14z")
+    boxes.pop(None, None)
+    paths = [f'<path fill="{fill}" d="{"".join(path)}"/>' for fill, path in boxes.items()]
+    size = f"0 0 {LEFT + WIDTH * len(coloured) + 150} {top + 20}"
+    start = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{size}" font-family="sans-serif" font-size="11">'
+    return "\n".join([start, '<rect width="100%" height="100%" fill="white"/>', *paths, *texts, "</svg>\n"])
 
 
 def main():
