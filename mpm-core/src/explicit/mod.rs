@@ -122,7 +122,7 @@ pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     amplitudes: Vec<f64>,
     /// Cells by which the nodes that they hold have moved on.
     shifts: Vec<[f64; D]>,
-    /// What the remedy fills; the mean stress there is that of the step, if it is current.
+    /// Columns that the remedy fills; the mean stress there is that of the step, if it is current.
     columns: Columns,
     mean_is_current: bool,
     /// Between G2P and the law.

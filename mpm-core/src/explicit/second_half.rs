@@ -67,7 +67,7 @@ pub(super) fn force_stress_of<const D: usize>(p: &Chunk<'_, D>, mean: &[f64], k:
     force_stress::<Eight, D>(&stress, ratio, numbers(mean, k))
 }
 
-/// What a remedy averages of a chunk.
+/// The columns that a remedy averages, of a chunk.
 pub(super) fn known<'a, const D: usize>(p: &'a Chunk<'_, D>, deformation: &'a DeformationChunk<'_, D>) -> Known<'a> {
     Known {
         stress: p.stress,

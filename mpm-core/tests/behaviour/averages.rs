@@ -66,7 +66,7 @@ fn deformation<const D: usize>(remedy: &dyn Remedy<D>, delta_f: &[SMatrix<f64, D
     deformation
 }
 
-/// What a remedy fills before the forces.
+/// The columns that a remedy fills before the forces.
 fn forced<const D: usize>(remedy: &dyn Remedy<D>, particles: &Particles<D>, average: &mut dyn Space<D>) -> Columns {
     let mut columns = remedy.columns(particles.len());
     let at_rest = Deformation::default();

@@ -21,7 +21,7 @@ const WORKLOADS: [(&str, usize, bool); 6] =
 /// How many times as fast as tuned Taichi, in two and in three dimensions. That as tutorials write it stands beside it,
 /// without an aim: it waits for atomic additions, which depend on the processor.
 const OVER_TUNED: [f64; 2] = [2.0, 2.8];
-/// What averages on the basis cost, and those over patches.
+/// Price of averages on the basis, and of those over patches, over none.
 const FBAR_COST: [f64; 2] = [1.4, 1.25];
 const TWO_THREADS: f64 = 1.75;
 /// A small scene has no more particles than this, and loses nothing to threads.

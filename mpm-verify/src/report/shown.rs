@@ -25,7 +25,7 @@ const PLACE: &str = "docs/pictures";
 const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
 /// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG. The third cell
-/// is [`ROWS`], [`BENCH`] or the least tier of the runs.
+/// is [`ROWS`], [`BENCH`], a script or the least tier of the runs.
 const SHOWN: &str = include_str!("../../assets/pictures.csv");
 /// Kept rows of nights: a row per run.
 const ROWS: &str = "rows";
@@ -62,6 +62,7 @@ pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
         let (from, to) = (drawn.join(folder), root.join(PLACE).join(folder));
         let (suffices, wanted) = match source {
             ROWS => (true, "rows of runs".to_owned()),
+            script if script.ends_with(".py") => (false, format!("a run of {script}")),
             BENCH => (true, "a bench over numbers of particles".to_owned()),
             least => (tier >= Some(Tier::parse(least)?), format!("runs of tier {least}: --from")),
         };

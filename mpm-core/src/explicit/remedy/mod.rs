@@ -137,7 +137,7 @@ fn shear<const D: usize>(delta_f: &[[Eight; D]; D]) -> Eight {
     (squares + squares).sqrt()
 }
 
-/// What a remedy averages: columns of some particles.
+/// Columns that a remedy averages, of some particles.
 #[derive(Debug, Clone, Copy)]
 pub struct Known<'a> {
     /// Cauchy stress (Pa).
@@ -174,7 +174,7 @@ pub struct Columns {
     pub mean: Vec<f64>,
     /// The share of a strain that averages don't see which is kept; empty where all particles have the same.
     pub kept: Vec<f64>,
-    /// What averages leave over.
+    /// The rest that averages leave over.
     pub rest: Vec<f64>,
 }
 
@@ -186,7 +186,7 @@ pub struct Filled<'a> {
     pub mean: &'a mut [f64],
     /// Share of what is not seen.
     pub kept: &'a mut [f64],
-    /// What averages leave over.
+    /// The rest that averages leave over.
     pub rest: &'a mut [f64],
 }
 

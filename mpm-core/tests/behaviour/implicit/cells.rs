@@ -69,7 +69,7 @@ where
     let mut particles = bodies.particles;
     let field: Vec<f64> = (0..particles.len()).map(noise).collect();
     let lattice = Lattice::<2, S, B>::new(grid, WallTreatment::OpenKnot);
-    let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size);
+    let (order, slabs) = stencil_order(&lattice, &particles.position, &particles.half_size, false);
     particles.permute(&order);
     for onto in [Onto::Hats, Onto::Cells] {
         let mut explicit: Vec<f64> = order.iter().map(|k| field[*k as usize]).collect();
