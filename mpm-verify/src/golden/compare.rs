@@ -1,7 +1,8 @@
 //! Drift of a run from its golden.
 
-use super::picture::{curves, judged, write_small};
+use super::picture::{curves, judged};
 use super::*;
+use crate::draw::write_small_png;
 use std::collections::BTreeMap;
 
 /// Largest distance of a row's time from that of its golden, over the latest time of the series.
@@ -52,7 +53,7 @@ impl Goldens {
         let is_shown = |(new, ..): &&(Run, _, _)| shown.iter().any(|run| run.name == new.name);
         if let Some((.., folder)) = new.iter().find(is_shown) {
             let picture = curves(&shown, Table::read(&folder.join(series::FILE))?.abscissa())?;
-            write_small(&picture, &picture_file(&self.root, case.name))?;
+            write_small_png(&picture_file(&self.root, case.name), &picture)?;
         }
         golden.write(&file(&self.root, case.name))
     }

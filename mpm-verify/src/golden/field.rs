@@ -1,10 +1,10 @@
 //! The particle field of a case's first run, kept as precisely as its picture shows it.
 
 use super::measure::rounded;
-use super::picture::{WIDTH, judged, small, write_small};
+use super::picture::{WIDTH, judged, small};
 use super::*;
 use crate::case::FieldView;
-use crate::draw::{FieldFigure, FieldPanel, draw_fields};
+use crate::draw::{FieldFigure, FieldPanel, draw_fields, write_small_png};
 use crate::files::snapshot_file;
 
 /// Number of distinguishable pixels along the window and steps of the colour scale: half of one is the tolerance.
@@ -59,7 +59,7 @@ pub(super) fn bless(
         (COLUMNS[k].to_owned(), rows.iter().map(|row| rounded(row[k], digits)).collect())
     };
     Table::of_columns([0, 1, 2, 3].map(column).into()).write(file)?;
-    write_small(&draw(view, record, &read(file)?)?, picture)
+    Ok(write_small_png(picture, &draw(view, record, &read(file)?)?)?)
 }
 
 /// Verdicts on the field of a run: each particle, and the picture, drawn from those that have not moved as they were kept.

@@ -6,9 +6,8 @@ use crate::distinct;
 use crate::draw::style::series;
 use crate::draw::triptych::different_pixels;
 use crate::draw::{Chart, PlotError, Series, draw_charts};
-use crate::files::{DOCUMENT, OTHER_LAYOUT, read, read_picture, write_whole};
+use crate::files::{DOCUMENT, OTHER_LAYOUT, read, read_picture};
 use crate::scheme::Scheme;
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::imageops;
 
 /// Width of a picture, in pixels, and of one with a single chart, whose curves are longer.
@@ -73,17 +72,10 @@ fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
     Ok(different_pixels(&read_picture(kept)?, drawn))
 }
 
-/// Writes a PNG file as small as it gets.
-pub(super) fn write_small(picture: &RgbImage, path: &Path) -> Result<(), Error> {
-    let mut bytes = Vec::new();
-    let encoder = PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::Adaptive);
-    picture.write_with_encoder(encoder).map_err(|e| Error::file(path, e))?;
-    write_whole(path, &bytes)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::draw::write_small_png;
     use crate::golden::Point;
     use image::Rgb;
 
@@ -107,8 +99,7 @@ mod tests {
         // Every shade is the nearest of sixteen.
         let shades = small(480, |path| {
             let ramp = RgbImage::from_fn(480, 256, |_, y| Rgb([y as u8; 3]));
-            write_small(&ramp, path).unwrap();
-            Ok(())
+            write_small_png(path, &ramp)
         });
         for (_, y, pixel) in shades.unwrap().enumerate_pixels() {
             let nearest = 17 * ((f64::from(y) / 17.0).round() as u8);

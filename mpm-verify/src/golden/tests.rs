@@ -2,8 +2,8 @@
 
 mod fields;
 
-use super::picture::write_small;
 use super::*;
+use crate::draw::write_small_png;
 use crate::files::read_picture;
 use crate::record::fixture::record;
 use crate::record::{Measured, Status};
@@ -252,7 +252,7 @@ fn the_picture_of_the_first_run_is_kept_and_compared() {
     made.write("series.csv", &made.series());
     let mut other = kept.clone();
     other.put_pixel(5, 5, Rgb([9; 3]));
-    write_small(&other, &path).unwrap();
+    write_small_png(&path, &other).unwrap();
     let drift = made.drift();
     assert_eq!((drift.len(), drift[0].1), (1, Some(1.0)));
     let cut = fs::read(&path).unwrap();

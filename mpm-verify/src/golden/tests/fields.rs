@@ -67,7 +67,7 @@ fn the_field_of_the_first_run_is_kept_and_compared() {
     made.write("particles.csv", &Made::particles());
     let mut other = read_picture(&picture).unwrap();
     other.put_pixel(5, 5, Rgb([9; 3]));
-    write_small(&other, &picture).unwrap();
+    write_small_png(&picture, &other).unwrap();
     let drift = made.drift();
     assert_eq!((drift.len(), drift[0].1), (1, Some(1.0)));
     fs::remove_file(&picture).unwrap();
