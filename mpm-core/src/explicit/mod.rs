@@ -4,6 +4,7 @@ mod between;
 mod contact;
 mod memory;
 pub mod remedy;
+mod scratch;
 mod second_half;
 mod settings;
 mod sort;
@@ -35,7 +36,9 @@ use crate::stage::Prescribed;
 use crate::tensor::SymmetricTensor;
 use between::Touching;
 use remedy::{Columns, Deformation};
+use scratch::Scratch;
 use second_half::SecondHalf;
+use std::sync::Mutex;
 use transfer::Flip;
 
 /// Largest (c + |v|) Δt / h: beyond it a wave or a particle crosses more than a cell in a step.
@@ -125,8 +128,12 @@ pub struct Solver<const D: usize, const S: usize, B, T = Flip> {
     /// Columns that the remedy fills; the mean stress there is that of the step, if it is current.
     columns: Columns,
     mean_is_current: bool,
-    /// Between G2P and the law.
+    /// Between G2P and the law, where that needs it of all particles.
     deformation: Deformation<D>,
+    /// Whether averages need no more than a chunk of particles, and nothing else stands between G2P and the law. Every
+    /// thread then has room for a chunk.
+    in_one_pass: bool,
+    scratch: Vec<Mutex<Scratch<D>>>,
     /// The step of every body after G2P.
     second_half: Vec<SecondHalf<D>>,
     chunk_sums: Vec<ChunkSums>,

@@ -1,6 +1,7 @@
 //! The stages of the explicit step, in its order.
 
 use super::remedy::Known;
+use super::scratch::Scratch;
 use super::second_half::{ForceStress, force_stress_of, known};
 use super::transfer::{Given, Received, Transfer};
 use super::{ChunkSums, NodeSums, Solver, VelocityField};
@@ -16,6 +17,7 @@ use crate::parallel::{CHUNK, NODE_CHUNK, PerPiece, for_each_chunk, for_each_piec
 use crate::projection::{Average, Projection};
 use crate::space::determinant_of_entries;
 use crate::stage::ForceFilter;
+use std::sync::Mutex;
 
 impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B, T> {
     /// Sets the prescribed velocities to those in the middle of the step, and notes the forces on what they hold.
@@ -175,8 +177,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             let particles = bodies.iter().map(|body| self.scene.bodies.each[*body].range().len() as u64);
             passes += (1 + extra) * particles.sum::<u64>();
         }
-        let in_one_pass = self.averages_in_one_pass();
         let remedy = self.settings.remedy.as_ref();
+        if self.in_one_pass {
+            self.scratch.resize_with(rayon::current_num_threads(), Mutex::default);
+        }
+        let scratch = &self.scratch;
         let mut columns = (self.deformation.chunk(), self.columns.all());
         let mut sums = &mut self.chunk_sums[..];
         for (body, field) in self.field_of.iter().enumerate() {
@@ -189,6 +194,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             let (all, own) = self.scene.bodies.part(body, &mut columns, &mut sums);
             for_each_chunk(all, own, &at, &|(mut p, (mut deformation, mut filled)), sums| {
                 *sums = ChunkSums::default();
+                let mut lent = Scratch::lent(scratch);
+                let one_pass = lent.is_some();
+                if let Some(lent) = &mut lent {
+                    (deformation, filled) = lent.part(remedy, p.len(), filled);
+                }
                 let (mut stress_power, mut load_power) = (Eight::ZERO, Eight::ZERO);
                 let mut stencils = Stencils::on(lattice);
                 let (mut received, mut receives) = (Received::default(), T::Receives::default());
@@ -252,7 +262,7 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                 }
                 sums.stress_power = stress_power.reduce_add();
                 sums.load_power = load_power.reduce_add();
-                if let Some(patches) = patches.filter(|_| in_one_pass && sums.collapsed.is_none()) {
+                if let Some(patches) = patches.filter(|_| one_pass && sums.collapsed.is_none()) {
                     let first = p.begin - begin;
                     let mut count = 0;
                     let mut mean = |volume: &[f64], field: &mut [f64]| {
@@ -268,10 +278,11 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                     remedy.force_mean(known, &mut filled, &mut |field| mean(p.volume, field));
                     sums.averages = count;
                 }
+                Scratch::give_back(scratch, lent);
             });
         }
         self.ledger.work.particle_node_pairs += passes * self.transfer_pairs;
-        if in_one_pass {
+        if self.in_one_pass {
             self.count_averages();
         }
         for sums in &self.chunk_sums {
@@ -279,11 +290,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             self.ledger.accumulated.load_work += self.settings.dt * sums.load_power;
         }
         self.first_fault()
-    }
-
-    /// Whether averages need no more than one chunk of particles, and nothing else stands between G2P and the law.
-    fn averages_in_one_pass(&self) -> bool {
-        self.scene.contacts.is_empty() && self.spaces.iter().all(|space| space.patches().is_some())
     }
 
     /// Counts the averages of the pass.
@@ -298,9 +304,12 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     /// The mean stress of the forces, where the remedy has a share in it; a pass over the particles leaves that of the
     /// next step.
     pub(super) fn average_stress(&mut self) {
-        let in_one_pass = self.averages_in_one_pass();
-        if in_one_pass && self.mean_is_current {
-            return;
+        let (in_one_pass, n) = (self.in_one_pass, self.scene.bodies.particles.len());
+        if in_one_pass {
+            if self.mean_is_current {
+                return;
+            }
+            self.columns.rest = self.settings.remedy.columns(n).rest;
         }
         let before = self.ledger.work;
         let Bodies { particles, each } = &self.scene.bodies;
@@ -311,13 +320,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         if in_one_pass {
             // The average was counted in the step that ended.
             (self.ledger.work, self.mean_is_current) = (before, true);
+            self.columns.rest = Vec::new();
         }
     }
 
     /// ΔF to ΔF̄, Eqs. (19)–(21), (25), (26), where the remedy averages; then the [`SecondHalf`](super::SecondHalf) of the
     /// particles' step, unless it is done.
     pub(super) fn average_volume_change(&mut self) -> Result<(), Error> {
-        if self.averages_in_one_pass() || !self.deformation.chunk().is_there() {
+        if !self.deformation.chunk().is_there() {
             return Ok(());
         }
         let Bodies { particles, each } = &self.scene.bodies;

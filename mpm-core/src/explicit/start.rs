@@ -11,7 +11,7 @@ use crate::ledger::Ledger;
 use crate::nodes::{NodalState, Node};
 use crate::order::Slabs;
 use crate::parallel::{CHUNK, NODE_CHUNK};
-use crate::projection::space;
+use crate::projection::{Onto, space};
 use crate::reach::Reach;
 use crate::room::Room;
 use crate::scene::Scene;
@@ -42,10 +42,15 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         let n = particles.len();
         let (bodies, onto) = (&scene.bodies, settings.remedy.averages_onto());
         let lengths: Vec<usize> = bodies.each.iter().map(|body| body.range().len()).collect();
-        let deformation = match onto.is_some() || !scene.contacts.is_empty() {
+        let in_one_pass = onto == Some(Onto::Patches) && scene.contacts.is_empty();
+        let deformation = match (onto.is_some() || !scene.contacts.is_empty()) && !in_one_pass {
             true => Deformation::of(settings.remedy.as_ref(), &lengths),
             false => Deformation::default(),
         };
+        let mut columns = settings.remedy.columns(n);
+        if in_one_pass {
+            (columns.next, columns.rest) = Default::default();
+        }
         let (slide, stick): (Vec<usize>, _) = (0..lengths.len()).partition(|k| bodies.each[*k].slides.is_some());
         let groups = [stick].into_iter().chain(slide.into_iter().map(|body| vec![body]));
         let field = |bodies: Vec<usize>| VelocityField {
@@ -73,7 +78,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
             declared: Vec::new(),
             amplitudes: vec![0.0; scene.constraints.len()],
             shifts: vec![[0.0; D]; scene.constraints.len()],
-            columns: settings.remedy.columns(n),
+            columns,
+            in_one_pass,
+            scratch: Vec::new(),
             mean_is_current: false,
             deformation,
             chunk_sums: vec![ChunkSums::default(); lengths.iter().map(|n| n.div_ceil(CHUNK)).sum()],
