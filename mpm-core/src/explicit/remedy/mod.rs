@@ -10,7 +10,7 @@ pub use fbar::{Fbar, Form};
 
 use crate::eights::{blocks, numbers, store_numbers};
 use crate::memory::{Memory, Memoryless};
-use crate::number::{EIGHT, Eight, Real};
+use crate::number::{Eight, Real};
 use crate::parallel::{CHUNK, Front, for_each_piece};
 use crate::particles::Particles;
 use crate::space::stretch_of_volume;
@@ -36,8 +36,7 @@ impl<const D: usize> Deformation<D> {
     /// Room for bodies with these numbers of particles.
     #[must_use]
     pub fn of(remedy: &dyn Remedy<D>, lengths: &[usize]) -> Self {
-        let n = lengths.iter().sum();
-        let eights = lengths.iter().map(|n| n / EIGHT + n.div_ceil(CHUNK)).sum();
+        let (n, eights) = (lengths.iter().sum(), lengths.iter().map(|n| blocks(*n)).sum());
         Self {
             delta_f: vec![[[Eight::ZERO; D]; D]; eights],
             increment: vec![[Eight::ZERO; D]; eights],
@@ -69,11 +68,9 @@ pub struct DeformationChunk<'a, const D: usize> {
 
 impl<const D: usize> Front for DeformationChunk<'_, D> {
     fn front(&mut self, pieces: usize, entries: usize) -> Self {
-        // Every piece may have an eight that is not full.
-        let eights = entries / EIGHT + pieces;
         Self {
-            delta_f: self.delta_f.front(pieces, eights),
-            increment: self.increment.front(pieces, eights),
+            delta_f: self.delta_f.front(pieces, blocks(entries)),
+            increment: self.increment.front(pieces, blocks(entries)),
             volume_change: self.volume_change.front(pieces, entries),
             shear: self.shear.front(pieces, entries),
         }
