@@ -24,6 +24,9 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         self.drift += largest + faces.fold(0.0, f64::max);
         if self.drift > self.scene.grid.h {
             self.sort();
+            if self.in_one_pass {
+                self.average_stress();
+            }
         }
     }
 
