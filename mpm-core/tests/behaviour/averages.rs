@@ -12,6 +12,7 @@ use mpm_core::material::{Law, NeoHookean};
 use mpm_core::number::Eight;
 use mpm_core::number::Lanes;
 use mpm_core::order::stencil_order;
+use mpm_core::parallel::CHUNK;
 use mpm_core::projection::{Space, space};
 use mpm_core::space::{determinant, determinant_of_entries, embed};
 use mpm_core::tensor::SymmetricTensor;
@@ -169,6 +170,19 @@ proptest! {
         properties::<3, Gimp>(&places);
         properties::<3, QuadraticBSpline>(&places);
         properties::<4, CubicBSpline>(&places);
+    }
+}
+
+/// Particles that have just been sorted have the patches of their cells, also where a pass goes on to its next piece.
+#[test]
+fn patches_are_the_cells_of_particles_that_have_just_been_sorted() {
+    let places: Vec<[f64; 4]> =
+        (0..5000).map(|k| [7.31, 3.77, 5.13, 1.91].map(|f| (f * f64::from(k)).fract())).collect();
+    let (bench, q) = scattered::<3, Gimp>(&places);
+    assert!(q.len() > 4 * CHUNK);
+    let [patches, cells] = [Onto::Patches, Onto::Cells].map(|onto| bench.average(onto, &q));
+    for (patch, cell) in patches.iter().zip(cells) {
+        assert!((patch - cell).abs() < ROUNDING, "{patch} {cell}");
     }
 }
 
