@@ -1,7 +1,7 @@
 //! Set-up and observation shared by several problems.
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
-use crate::cases::prelude::*;
+use crate::prelude::*;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};

@@ -5,7 +5,6 @@
 use crate::cases::prelude::*;
 use crate::exact::transfers::{filtered, second_moment};
 use mpm_solvers::stable_cfl;
-use nalgebra::{Matrix3, SMatrix};
 use std::ops::AddAssign;
 
 /// Steps of a run, and its duration (s).

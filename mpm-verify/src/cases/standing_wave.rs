@@ -8,7 +8,6 @@ use crate::cases::prelude::*;
 use crate::exact;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use nalgebra::{Matrix3, Vector3};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.

@@ -3,7 +3,6 @@
 use super::reference::{Measure, Solution, StressField};
 use super::run::CREEP;
 use super::*;
-use crate::cases::checks::ladders_by;
 use Measure::{EdgeMean, MidEdge, Tip};
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.

@@ -3,12 +3,11 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{displacement, mean_stress};
-use crate::statistics::{Line, checkerboard};
+use crate::cases::observe::mean_stress;
+use crate::statistics::Line;
+use mpm_core::Memory;
 use mpm_core::implicit::Settings;
 use mpm_core::stage::{DeadForce, KineticDamping, Load, Observation, RestCriterion};
-use mpm_core::{Memory, Saved};
-use std::ops::RangeInclusive;
 
 /// Particles on a side count as inside (m).
 const ON_SIDE: f64 = 1e-9;

@@ -1,7 +1,6 @@
 //! Checks of the dam break. The tolerances are derived in `docs/dam-break.md`.
 
 use super::*;
-use crate::cases::checks::changed;
 use crate::cases::parameters::is_of_own_problem;
 use crate::exact::dam_break::{elastic_energy, energies, greatest_speed, passage, uncertainty};
 

@@ -3,11 +3,8 @@
 use super::flow::{Flow, Start, State};
 use super::*;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::statistics::checkerboard;
 use mpm_core::explicit::Settings;
-use mpm_core::stage::{RigidNodes, smooth_rise};
 use mpm_solvers::solver;
-use nalgebra::{SMatrix, Vector3};
 
 /// Height (m) of the grid: jets rise to 10 m.
 const HEIGHT: f64 = 16.0;

@@ -5,7 +5,6 @@
 mod flight;
 mod run;
 
-use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use flight::{CENTRES, RADIUS};
 use run::{AT_SPEED, IN_CONTACT};

@@ -5,7 +5,6 @@
 mod run;
 mod scene;
 
-use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};

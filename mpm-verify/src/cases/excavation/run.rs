@@ -2,7 +2,6 @@
 
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
-use crate::cases::observe::{farthest, finds_equilibrium, places};
 use mpm_core::Reaction;
 use mpm_core::monitor::Convergence;
 

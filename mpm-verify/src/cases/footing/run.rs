@@ -2,10 +2,10 @@
 
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::*;
-use crate::cases::observe::{mean_stress, places};
-use crate::statistics::{checkerboard, oscillation};
+use crate::cases::observe::mean_stress;
+use crate::statistics::oscillation;
 use mpm_core::implicit::GHOST;
-use mpm_core::stage::{RigidNodes, smooth_stroke};
+use mpm_core::stage::smooth_stroke;
 
 /// Width B of the footing (m); its right half is simulated.
 pub(super) const WIDTH: f64 = 1.0;

@@ -3,7 +3,6 @@
 use super::*;
 use crate::exact::twist::ANGLE;
 use crate::exact::{self, swirl, vortex_pressure};
-use crate::problem;
 use mpm_core::implicit::Settings;
 
 parameters! { const:

@@ -1,10 +1,8 @@
 //! Trials of a slope with reduced strength.
 
 use super::*;
-use crate::cases::observe::{farthest, finds_equilibrium, places};
 use crate::cases::slope::ground::{Ground, RISE, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
-use mpm_core::Saved;
 
 /// A slope that moves by this share of its height in a trial fails.
 const FAILS: f64 = 0.02;

@@ -1,14 +1,11 @@
 //! Scene and errors of the clouds: a row for each cloud.
 
 use super::*;
-use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
-use crate::cases::observe::finds_equilibrium;
 use crate::exact::vortex_box::ENTRY;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit;
-use std::sync::Arc;
 
 /// Largest angle of the vortex (rad): so small that particles stay where they are.
 const ANGLE: f64 = 0.01;

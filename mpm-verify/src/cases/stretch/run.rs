@@ -1,13 +1,10 @@
 //! Scene, observations and predictions of the body.
 
 use super::*;
-use crate::cases::build::lattice;
-use crate::cases::observe::finds_equilibrium;
 use crate::exact::stretched_lattice::Lattice;
 use mpm_core::explicit::Settings;
 use mpm_core::stage::Constraint;
 use mpm_core::{Frame, Memoryless, implicit};
-use nalgebra::Matrix3;
 
 /// Cells of the body beside the free part, always.
 const HELD: usize = 2;

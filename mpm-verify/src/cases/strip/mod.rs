@@ -11,7 +11,6 @@ mod run;
 
 use super::poro::{ROUNDING, spaces};
 use crate::cases::prelude::*;
-use crate::results::Format;
 use run::SIDE;
 
 const LEVELS: [(&str, f64); 3] = [("b2", 2.0), ("b4", 4.0), ("b8", 8.0)];

@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::poro::*;
 use crate::exact::terzaghi::FirstStep;
-use crate::statistics::growth;
 use mpm_core::poro::{Face, Settings};
 
 /// Largest q/M: the finite part of the strain changes a distance by ten times as much.
