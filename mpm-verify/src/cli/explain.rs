@@ -3,7 +3,7 @@
 use super::*;
 use clap::CommandFactory;
 use clap_complete::Shell;
-use mpm_verify::{exact, golden};
+use mpm_verify::exact;
 
 #[derive(Args)]
 pub(crate) struct List {

@@ -1,10 +1,8 @@
 //! The commands `keep`, `tables`, `pictures` and `complete`: rows of runs that are kept, and pages filled from them.
 
 use super::*;
-use mpm_verify::record::Version;
 use mpm_verify::report::{keep::keep, shown, tables::Page};
 use mpm_verify::study::complete::Completeness;
-use mpm_verify::study::plan::{Plan, Shard};
 
 #[derive(Args)]
 pub(crate) struct Keep {
