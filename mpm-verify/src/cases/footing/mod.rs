@@ -260,28 +260,31 @@ fn tables() -> Vec<ResultTable> {
     let is_main = |r: &Record| r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20";
     vec![
         ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
-        table_of_results(),
+        ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
+            .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
+            .metric("N_c by B", NC_B, fixed(3))
+            .metric("by B + h", NC_B_PLUS_H, fixed(3))
+            .value("by its own width", own, fixed(3))
+            .value("from 2 + π", from_exact, percent(1))
+            .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
+            .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
+            .metric("heave", HEAVE, fixed(2))
+            .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
+            .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
+            .cpu(),
         table_of_mean_stresses(),
         table_of_rates(),
         table_of_slopes(),
         transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| percent(2).text(from_exact(r))),
-        table_of_orders(),
+        ResultTable::of("footing-orders", |r| {
+            let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
+            main && is_flip(r) && r.is_default()
+        })
+        .by(&[SCHEME])
+        .columns(Column::levels([("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")], PRANDTL_ERROR, percent(1)))
+        // Errors on splines with F̄ are too small to fall with an order.
+        .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)")),
     ]
-}
-
-fn table_of_results() -> ResultTable {
-    ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
-        .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
-        .metric("N_c by B", NC_B, fixed(3))
-        .metric("by B + h", NC_B_PLUS_H, fixed(3))
-        .value("by its own width", own, fixed(3))
-        .value("from 2 + π", from_exact, percent(1))
-        .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
-        .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
-        .metric("heave", HEAVE, fixed(2))
-        .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
-        .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
-        .cpu()
 }
 
 fn table_of_mean_stresses() -> ResultTable {
@@ -329,16 +332,4 @@ fn table_of_slopes() -> ResultTable {
         .value("slope d(q/s_u)/d(s/B)", found, fixed(0))
         .value("finite elements that act as wide", expected, fixed(0))
         .value("difference", move |r| found(r) / expected(r) - 1.0, percent(1))
-}
-
-fn table_of_orders() -> ResultTable {
-    let levels = [("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")];
-    ResultTable::of("footing-orders", |r| {
-        let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
-        main && is_flip(r) && r.is_default()
-    })
-    .by(&[SCHEME])
-    .columns(Column::levels(levels, PRANDTL_ERROR, percent(1)))
-    // Errors on splines with F̄ are too small to fall with an order.
-    .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)"))
 }
