@@ -56,11 +56,6 @@ impl Setup<Cook> {
         NeoHookean::new(self.young_modulus, self.poisson_ratio)
     }
 
-    /// Initial positions (m) of the particles.
-    fn places(&self) -> Vec<[f64; 2]> {
-        self.start_at(seed(self.pitch()))
-    }
-
     fn particles(&self) -> Result<Particles<2>, Fault> {
         self.particles_at(seed(self.pitch()), self.pitch(), self.density)
     }
@@ -168,11 +163,6 @@ pub(super) fn energy_defect(kinetic: f64, stress_work: f64, losses: f64, load_wo
     kinetic + stress_work + losses - load_work
 }
 
-fn has_stopped(run: &dyn Simulation<2>) -> bool {
-    let mut velocities = run.particles().velocity.iter().flatten();
-    velocities.all(|v| *v == 0.0)
-}
-
 impl Membrane {
     /// The criterion of rest, with its observations so far.
     fn rest(&self, seen: &Seen) -> Result<RestCriterion, Fault> {
@@ -206,7 +196,7 @@ impl Membrane {
         phase.steps(steps - 1)?;
         let run = phase.run.as_mut();
         let mut work_residual = step_and_weigh(run, self.dt)?;
-        if has_stopped(run) {
+        if run.particles().velocity.iter().flatten().all(|v| *v == 0.0) {
             // Kinetic damping struck in this very step: weigh the next one.
             work_residual = step_and_weigh(run, self.dt)?;
         }
@@ -309,7 +299,7 @@ impl Problem<2> for Membrane {
             setup.forbid(&OF_EXPLICIT)?;
             1.0 / f64::from(setup.load_steps)
         };
-        Ok(Self { probes: Probes::new(setup.places(), setup.h)?, setup, dt })
+        Ok(Self { probes: Probes::new(setup.start_at(seed(setup.pitch())), setup.h)?, setup, dt })
     }
 
     fn discretisation(&self) -> Discretisation {

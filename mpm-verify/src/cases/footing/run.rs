@@ -196,11 +196,6 @@ impl Pressing {
             .as_ref()
             .map_or(0.0, |(barrier, particles)| (barrier.distance() - barrier.gap(force.max(0.0) / particles)) / WIDTH)
     }
-
-    /// Force of the ground on the footing in the last step, upward (N/m).
-    fn force_on_footing(&self, run: &dyn Simulation<2>) -> f64 {
-        run.on(if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) }).force[1]
-    }
 }
 
 impl Problem<2> for Pressing {
@@ -253,13 +248,14 @@ impl Problem<2> for Pressing {
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
+        let footing = if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) };
         let (mut force, mut base, mut time) = (0.0, 0.0, 0.0);
         for _ in 0..self.pace.steps_per_row {
             let start = phase.run.time();
             phase.steps(1)?;
             // Forces are those at the start of an explicit step, at the end of an implicit one.
             time += if self.setup.is_implicit() { phase.run.time() } else { start };
-            force += self.force_on_footing(phase.run.as_ref());
+            force += phase.run.on(footing).force[1];
             base -= phase.run.on(Part::Constraint(BASE)).force[1];
         }
         let steps = self.pace.steps_per_row as f64;
