@@ -166,16 +166,6 @@ pub(super) struct Pressing {
 }
 
 impl Pressing {
-    /// The footing as held nodes: those on and above the surface, and those of the splines with nodes in the middle of
-    /// cells that lie half a cell below, without which the surface would not be rigid.
-    fn held_nodes(&self) -> RigidNodes<2> {
-        RigidNodes {
-            extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * self.setup.h, f64::INFINITY]],
-            velocity: [self.setup.rough.then_some(0.0), Some(-self.pace.rate)],
-            ramp: self.pace.ramp,
-        }
-    }
-
     /// The footing as a barrier on the particles that come near it.
     fn contact(&self, barrier: Barrier, particles: &Particles<2>) -> Result<RigidContact<2>, Fault> {
         let reach = REACH * self.setup.h;
@@ -235,7 +225,13 @@ impl Problem<2> for Pressing {
             roller(0, End::Hi),
         ]);
         let scene = match self.barrier {
-            None => ground.constrain(self.held_nodes()),
+            // Held nodes are those on and above the surface, and those of the splines with nodes in the middle of cells
+            // that lie half a cell below, without which the surface would not be rigid.
+            None => ground.constrain(RigidNodes {
+                extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * setup.h, f64::INFINITY]],
+                velocity: [setup.rough.then_some(0.0), Some(-self.pace.rate)],
+                ramp: self.pace.ramp,
+            }),
             Some((barrier, _)) => {
                 let contact = self.contact(barrier, &ground.bodies.particles)?;
                 ground.contact(contact)
