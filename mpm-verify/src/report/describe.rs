@@ -6,8 +6,6 @@ use super::document::{Document, Text};
 use super::prelude::*;
 use super::words::quantity;
 use crate::study::judge::exit_code;
-use serde_json::Value;
-use std::fmt::Write;
 
 /// Columns of the meaning of a metric, beside its name and value.
 const MEANING: usize = 47;

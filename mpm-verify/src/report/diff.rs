@@ -4,8 +4,6 @@ use super::convergence::CPU_PICTURE;
 use super::prelude::*;
 use crate::draw::triptych::different_pixels;
 use crate::files;
-use serde_json::Value;
-use std::fmt::Write;
 
 /// An entry of two tables that is not the same.
 #[derive(Serialize)]

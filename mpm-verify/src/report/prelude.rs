@@ -31,6 +31,7 @@ pub(super) use crate::{cases, distinct};
 pub(super) use image::RgbImage;
 pub(super) use jiff::civil::Date;
 pub(super) use serde::{Deserialize, Serialize};
-pub(super) use serde_json::json;
+pub(super) use serde_json::{Value, json};
 pub(super) use std::collections::{BTreeMap, BTreeSet};
+pub(super) use std::fmt::Write;
 pub(super) use std::path::{Path, PathBuf};

@@ -9,8 +9,6 @@ use super::tables::RESULTS;
 use super::{rows, verdicts};
 use crate::foreign::Asked;
 use crate::score::{Scored, Scores, gate::Gate};
-use serde_json::Value;
-use std::fmt::Write;
 
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;
