@@ -42,7 +42,7 @@ pub(crate) use mpm_core::material::{
 pub(crate) use mpm_core::poro::{Conductivity, Water};
 pub(crate) use mpm_core::stage::{BodyForce, End, Gravity, RigidNodes, Wall, WallKind, smooth_rise};
 pub(crate) use mpm_core::{Axis, Bodies, Error as Fault, Field, Grid, Part, Particles, Saved, Scene, Side, Simulation};
-pub(crate) use nalgebra::{Matrix2, Matrix3, SMatrix, Vector3};
+pub(crate) use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, SMatrix, Vector3};
 pub(crate) use serde::{Deserialize, Serialize};
 pub(crate) use std::collections::BTreeMap;
 pub(crate) use std::f64::consts::{PI, SQRT_2, TAU};

@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::forms::{Cloud, Field, Hats, Means, coarse, eigenvalues, log10_condition, scaled, singular};
 use mpm_core::implicit::{Moduli, OfHats};
-use nalgebra::DMatrix;
 
 /// Particles a cell of the displacement and direction.
 const PARTICLES: usize = 3;

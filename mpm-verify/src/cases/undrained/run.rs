@@ -5,7 +5,6 @@ use crate::cases::forms::{self, Cloud, Hats, Means, coarse, eigenvalues, singula
 use mpm_core::Lattice;
 use mpm_core::basis::QuadraticBSpline;
 use mpm_core::implicit::{Interpolation, OfHats};
-use nalgebra::{DMatrix, DVector};
 
 type Splines = Lattice<2, 3, QuadraticBSpline>;
 
