@@ -17,8 +17,7 @@ impl Keep {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let _held = hold(&self.into)?;
         let rows = keep(&self.report, &self.into)?;
-        say(format!("{rows} runs are kept in {}\n", self.into.display()))?;
-        Ok(ExitCode::Good)
+        say(format!("{rows} runs are kept in {}\n", self.into.display())).map(|()| ExitCode::Good)
     }
 }
 
@@ -63,8 +62,7 @@ pub(crate) struct Pictures {
 
 impl Pictures {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        say(shown::draw(&self.root, &self.from)?)?;
-        Ok(ExitCode::Good)
+        say(shown::draw(&self.root, &self.from)?).map(|()| ExitCode::Good)
     }
 }
 
