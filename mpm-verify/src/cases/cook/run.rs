@@ -98,17 +98,6 @@ impl Setup<Cook> {
             Scene::new(Grid::new(h, [along, up])?, Bodies::new(self.law()?, particles)?).constrain(clamp(0, End::Lo));
         Ok(loads.into_iter().fold(scene, Scene::load))
     }
-
-    /// Checks durations of an explicit run against each other.
-    fn check_together(&self) -> Result<(), Error> {
-        for (name, periods) in [("rest_window", self.rest_window), ("load_ramp", self.load_ramp)] {
-            if periods >= self.max_periods {
-                let most = self.max_periods;
-                return Err(Error::Input(format!("{name} = {periods} is not below max_periods = {most}")));
-            }
-        }
-        Ok(())
-    }
 }
 
 /// A loaded membrane.
@@ -293,7 +282,12 @@ impl Problem<2> for Membrane {
         require_quotient("load / young_modulus", setup.load / setup.young_modulus, LOAD_OVER_MODULUS, why)?;
         let dt = if setup.is_explicit() {
             setup.forbid(&OF_QUASI_STATIC)?;
-            setup.check_together()?;
+            for (name, periods) in [("rest_window", setup.rest_window), ("load_ramp", setup.load_ramp)] {
+                if periods >= setup.max_periods {
+                    let most = setup.max_periods;
+                    return Err(Error::Input(format!("{name} = {periods} is not below max_periods = {most}")));
+                }
+            }
             courant_time_step(setup.cfl, setup.h, setup.law()?.wave_speed(setup.density))
         } else {
             setup.forbid(&OF_EXPLICIT)?;
