@@ -64,8 +64,8 @@ impl<P: ParameterSet> Setup<P> {
         self.forbid(&foreign)
     }
 
-    /// Settings of an implicit run with steps of `dt` (s), with the tolerance that the parameter sets, if there is one; nothing
-    /// for another scheme.
+    /// Settings of an implicit run with steps of `dt` (s), with the tolerance that the parameter sets, if there is
+    /// one; nothing for another scheme.
     pub(super) fn implicit_settings(&self, dt: f64) -> Option<implicit::Settings> {
         let number = |p| self.values.number(p);
         let rule = match self.rule()? {
