@@ -4,7 +4,7 @@
 //! Roache, *Verification and Validation in Computational Science and Engineering* (1998); Celik et al.,
 //! J. Fluids Eng. 130 (2008) 078001, doi 10.1115/1.2960953.
 
-use crate::statistics::fit_line;
+use crate::statistics::{fit_line, root};
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::fmt;
@@ -99,19 +99,11 @@ pub fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
     // p ln r21 = ln(ratio) + ln((r21^p − 1)/(r32^p − 1)), Eq. (3) of Celik et al., by bisection of the
     // equivalent d32/d21 = r21^p (r32^p − 1)/(r21^p − 1), whose right side grows with p.
     let predicted = |p: f64| r21.powf(p) * (r32.powf(p) - 1.0) / (r21.powf(p) - 1.0);
-    let (mut low, mut high) = (1e-6, MOST);
-    if !(predicted(low)..predicted(high)).contains(&ratio) {
+    let ends = (1e-6, MOST);
+    if !(predicted(ends.0)..predicted(ends.1)).contains(&ratio) {
         return Err("the values don't approach a limit as a power of h".to_owned());
     }
-    for _ in 0..80 {
-        let middle = 0.5 * (low + high);
-        if predicted(middle) < ratio {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    let order = 0.5 * (low + high);
+    let order = root(ends, |p| ratio - predicted(p));
     let index = |fine: f64, coarse: f64, r: f64| SAFETY * ((fine - coarse) / fine).abs() / (r.powf(order) - 1.0);
     Ok(Richardson {
         order,

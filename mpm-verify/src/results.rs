@@ -370,16 +370,12 @@ impl ResultTable {
                 told.push(run);
                 let Status::Failed = run.status else { return text(run) };
                 let again = broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
-                if again { String::new() } else { breakdown(run) }
+                let time = fixed(2).text(run.error.as_ref().map_or(f64::NAN, |e| e.time));
+                if again { String::new() } else { format!("breaks down at {time} s") }
             }
         });
         (cells.collect(), told)
     }
-}
-
-/// When a run broke down, in words.
-fn breakdown(run: &Record) -> String {
-    format!("breaks down at {} s", fixed(2).text(run.error.as_ref().map_or(f64::NAN, |e| e.time)))
 }
 
 /// The order of an error over the runs of a row that have it.

@@ -23,7 +23,8 @@ impl<'a> Sampled<'a> {
 
     /// Half the second derivative at three rows from `first` on: their second divided difference.
     fn curvature(&self, first: usize) -> Option<f64> {
-        let ([a, b, c], [u, v, w]) = (three(self.x, first)?, three(self.y, first)?);
+        let three = |of: &[f64]| -> Option<[f64; 3]> { of.get(first..first + 3)?.try_into().ok() };
+        let ([a, b, c], [u, v, w]) = (three(self.x)?, three(self.y)?);
         Some(((w - v) / (c - b) - (v - u) / (b - a)) / (c - a))
     }
 
@@ -49,10 +50,6 @@ impl<'a> Sampled<'a> {
         let middles = within.map(|pair| self.at(0.5 * (pair[0] + pair[1])).map(|b| b.error));
         middles.collect::<Option<Vec<f64>>>()?.into_iter().reduce(f64::max)
     }
-}
-
-fn three(of: &[f64], first: usize) -> Option<[f64; 3]> {
-    of.get(first..first + 3)?.try_into().ok()
 }
 
 /// Why rows at the rising places `x` of an abscissa do not show a curve over a span, if they do not: they begin late, end

@@ -37,11 +37,7 @@ impl RunSpec {
     /// Folder of the run below that of its case.
     #[must_use]
     pub fn folder(&self) -> String {
-        let mut folder = run_folder(self.scheme, self.level.name, &self.set);
-        if self.perturbed {
-            folder.push_str("/twin");
-        }
-        folder
+        run_folder(self.scheme, self.level.name, &self.set) + if self.perturbed { "/twin" } else { "" }
     }
 }
 
@@ -58,12 +54,8 @@ pub(crate) fn start_at<const D: usize>(mut positions: Vec<[f64; D]>, perturbed: 
 
 /// Name of a run, which is also its folder below that of its case.
 pub(crate) fn run_folder(scheme: Scheme, level: &str, set: &[String]) -> String {
-    let mut folder = format!("{scheme}/{level}");
-    for assignment in set {
-        folder.push('+');
-        folder.push_str(assignment);
-    }
-    folder
+    let set: String = set.iter().map(|assignment| format!("+{assignment}")).collect();
+    format!("{scheme}/{level}{set}")
 }
 
 #[cfg(test)]

@@ -1,13 +1,11 @@
 //! Tables and pictures of what was measured.
 
-use super::Bench;
+use super::*;
 use crate::draw::{Chart, Marker, Scale, Series, draw_charts};
-use crate::error::Error;
 use crate::files::{write_csv, write_whole};
 use crate::table::Sheet;
 use mpm_bench::{Measured, Measurements, Spread, aims, model, newton};
 use std::fmt::Write;
-use std::path::Path;
 
 /// Writes the tables and pictures of a bench and returns the tables.
 pub(super) fn write(bench: &Bench, out: &Path) -> Result<String, Error> {

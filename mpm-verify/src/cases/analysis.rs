@@ -1,10 +1,10 @@
 //! Cases in which nothing moves: a row is an analysis of the discretisation.
 
-use crate::cases::prelude::*;
 use crate::job::Column;
+use crate::prelude::*;
 use crate::problem::measured;
 use crate::record::Measured;
-use mpm_core::{Memory, MemoryError, Saved};
+use mpm_core::{Memory, MemoryError};
 use serde::de::DeserializeOwned;
 
 /// An analysis of a discretisation in the plane.

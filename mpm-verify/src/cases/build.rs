@@ -2,7 +2,6 @@
 
 use super::parameters as common;
 use crate::prelude::*;
-use nalgebra::SMatrix;
 
 impl<P: ParameterSet> Setup<P> {
     /// Distance of particles (m), by the parameter `ppc_per_direction`.

@@ -1,6 +1,6 @@
 //! Judgements that checks of several cases share.
 
-use crate::cases::prelude::*;
+use crate::prelude::*;
 use mpm_core::monitor::Convergence;
 
 /// Levels or steps that decide an order.

@@ -1,7 +1,7 @@
 //! Set-up and observation shared by several problems.
 
 use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
-use crate::cases::prelude::*;
+use crate::prelude::*;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
 use mpm_core::implicit::{self, TimeRule};
@@ -64,7 +64,8 @@ impl<P: ParameterSet> Setup<P> {
         self.forbid(&foreign)
     }
 
-    /// Settings of an implicit run with steps of `dt` (s); nothing for another scheme.
+    /// Settings of an implicit run with steps of `dt` (s), with the tolerance that the parameter sets, if there is
+    /// one; nothing for another scheme.
     pub(super) fn implicit_settings(&self, dt: f64) -> Option<implicit::Settings> {
         let number = |p| self.values.number(p);
         let rule = match self.rule()? {
@@ -72,7 +73,8 @@ impl<P: ParameterSet> Setup<P> {
             RuleName::Midpoint => TimeRule::Midpoint { lumped: number(LUMPED) },
             RuleName::Newmark => TimeRule::Newmark { alpha: number(ALPHA), delta: number(DELTA) },
         };
-        Some(implicit::Settings { tolerance: number(TOLERANCE), ..implicit::Settings::new(dt).rule(rule) })
+        let (settings, tolerance) = (implicit::Settings::new(dt).rule(rule), number(TOLERANCE));
+        Some(if tolerance.is_nan() { settings } else { implicit::Settings { tolerance, ..settings } })
     }
 
     /// The CFL number in `dimension` dimensions: the parameter, or, with `time_step=auto`, that of the step which is stable for

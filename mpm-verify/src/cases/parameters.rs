@@ -1,7 +1,6 @@
 //! Parameters shared by several problems: each is read by its constant, so that a typo does not compile.
 
 use crate::prelude::*;
-use std::ops::RangeInclusive;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 

@@ -1,6 +1,6 @@
 //! Parts shared by the pictures of several problems: their titles, their runs and their arrangement.
 
-use crate::cases::prelude::*;
+use crate::prelude::*;
 
 /// Whether a run came to its end and has the transfer that problems are shown with.
 pub(super) fn is_shown(record: &&Record) -> bool {

@@ -95,7 +95,7 @@ fn checks() -> Vec<Check> {
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
         Gate::known_limit("out-of-balance", "cubic splines, and all on the wall's line: distance of a particle from rest above the bound of stays")
-            .when(is_out_of_balance)
+            .when(|r| r.basis() == Bspline3 || r.basis() == Bspline2 && r.values.is(WALL, WALL_LINE))
             .above(DISPLACEMENT_LINF, interpolation)
             .because("two particles a direction don't integrate cubic splines, or those that a wall cuts, at a foot that a stress acts on"),
         Gate::known_limit("pressure-relaxes", "fbar-recursive: pressure at the foot within a twentieth of its mean over the height, half the exact value")
@@ -108,11 +108,6 @@ fn checks() -> Vec<Check> {
 /// Whether a scheme has no known reason to leave the state of rest.
 fn is_sound(r: &Run<()>) -> bool {
     r.remedy() != FbarRecursive && r.basis() != Bspline3
-}
-
-/// Whether the foot's layer of functions is integrated too badly to rest.
-fn is_out_of_balance(r: &Run<()>) -> bool {
-    r.basis() == Bspline3 || r.basis() == Bspline2 && r.values.is(WALL, WALL_LINE)
 }
 
 /// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ along the slope

@@ -8,7 +8,6 @@ use crate::cases::prelude::*;
 use crate::exact;
 use crate::exact::hydrostatic::Hydrostatic;
 use crate::exact::standing_wave::{DEPTH, ENTRY, HALF_WAVES, StandingWave, WIDTH};
-use nalgebra::{Matrix3, Vector3};
 
 /// The linear wave on top of the exact state of rest of a compressible liquid: to first order in the
 /// wave's steepness and in gH/c² an exact solution.
@@ -101,13 +100,6 @@ fn is_short(r: &Setup<()>) -> bool {
     r.values.number(DURATION) <= TWO_PERIODS
 }
 
-/// Whether particles lose their order until the run breaks down.
-fn is_disordered(r: &Setup<()>) -> bool {
-    let disorder = !is_short(r) || r.basis() == Gimp && r.level == "n16";
-    let at_walls = r.remedy() != FbarConsistent && r.values.is(WALL, WALL_LINE);
-    (disorder || at_walls) && r.remedy() != RemedyName::None && !is_held(r)
-}
-
 /// Largest error of the frequency of a scheme that does not lock.
 fn tolerance(r: &Setup<()>) -> f64 {
     let kh = PI * r.values.number(HALF_WAVES) / r.values.number(WIDTH) * r.h;
@@ -157,7 +149,11 @@ pub(super) fn case() -> Case {
     .table(periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)))
     .table(periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()))
     .breaks_down(|r| {
-        let disordered = Setup::of_record(r).is_ok_and(|r| is_disordered(&r));
+        let disordered = Setup::<()>::of_record(r).is_ok_and(|r| {
+            let disorder = !is_short(&r) || r.basis() == Gimp && r.level == "n16";
+            let at_walls = r.remedy() != FbarConsistent && r.values.is(WALL, WALL_LINE);
+            (disorder || at_walls) && r.remedy() != RemedyName::None && !is_held(&r)
+        });
         disordered.then_some("what Π can't see has next to no stiffness: particles lose their order, until sound in one outruns the step, J falls to zero or a wall is passed (docs/remedy.md)")
     })
     .pictures(pictures)

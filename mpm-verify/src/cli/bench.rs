@@ -29,9 +29,13 @@ pub(crate) struct Bench {
 
 impl Bench {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let mut threads = if self.threads.is_empty() { vec![or_all_cores(None)] } else { self.threads };
+        threads.push(1);
+        threads.sort_unstable();
+        threads.dedup();
         let options = bench::Options {
             rounds: self.rounds,
-            threads: compared_threads(self.threads),
+            threads,
             only: self.only,
             peers: self.peers.map(|_| Peers::taichi(self.python)),
         };
@@ -40,13 +44,4 @@ impl Bench {
         say(&bench::measure(&options, &self.out, &|share| teller.hear(|_| format!("{:.0} %", 100.0 * share)))?)?;
         Ok(ExitCode::Good)
     }
-}
-
-/// One thread and the requested numbers, all cores by default.
-fn compared_threads(asked: Vec<usize>) -> Vec<usize> {
-    let mut threads = if asked.is_empty() { vec![or_all_cores(None)] } else { asked };
-    threads.push(1);
-    threads.sort_unstable();
-    threads.dedup();
-    threads
 }

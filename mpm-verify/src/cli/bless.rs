@@ -1,11 +1,8 @@
 //! The command `bless`: drift becomes the golden.
 
 use super::*;
-use crate::progress;
 use mpm_verify::bless::{Blessing, Candidates};
 use mpm_verify::error::is_unfit;
-use mpm_verify::golden::{self, Goldens};
-use mpm_verify::study::gather::Gathered;
 
 #[derive(Args)]
 pub(crate) struct Bless {

@@ -3,7 +3,7 @@
 use super::*;
 use clap::CommandFactory;
 use clap_complete::Shell;
-use mpm_verify::{exact, golden};
+use mpm_verify::exact;
 
 #[derive(Args)]
 pub(crate) struct List {
@@ -64,8 +64,7 @@ pub(crate) struct Exact {
 
 impl Exact {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        say(exact::State::ask(&self.name, &self.at, &self.time, &self.set)?.json()?)?;
-        Ok(ExitCode::Good)
+        say(exact::State::ask(&self.name, &self.at, &self.time, &self.set)?.json()?).map(|()| ExitCode::Good)
     }
 }
 
@@ -79,7 +78,6 @@ impl Completions {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "mpm-verify", &mut script);
-        say(String::from_utf8_lossy(&script))?;
-        Ok(ExitCode::Good)
+        say(String::from_utf8_lossy(&script)).map(|()| ExitCode::Good)
     }
 }

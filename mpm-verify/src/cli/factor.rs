@@ -37,7 +37,6 @@ impl Factor {
             draw_charts(&out.join("factor.png"), &[search.chart()], 1)?;
             search.write(&out.join("factor.csv"))?;
         }
-        say(search.result() + "\n")?;
-        Ok(ExitCode::Good)
+        say(search.result() + "\n").map(|()| ExitCode::Good)
     }
 }

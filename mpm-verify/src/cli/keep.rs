@@ -1,10 +1,8 @@
 //! The commands `keep`, `tables`, `pictures` and `complete`: rows of runs that are kept, and pages filled from them.
 
 use super::*;
-use mpm_verify::record::Version;
 use mpm_verify::report::{keep::keep, shown, tables::Page};
 use mpm_verify::study::complete::Completeness;
-use mpm_verify::study::plan::{Plan, Shard};
 
 #[derive(Args)]
 pub(crate) struct Keep {
@@ -19,8 +17,7 @@ impl Keep {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
         let _held = hold(&self.into)?;
         let rows = keep(&self.report, &self.into)?;
-        say(format!("{rows} runs are kept in {}\n", self.into.display()))?;
-        Ok(ExitCode::Good)
+        say(format!("{rows} runs are kept in {}\n", self.into.display())).map(|()| ExitCode::Good)
     }
 }
 
@@ -65,8 +62,7 @@ pub(crate) struct Pictures {
 
 impl Pictures {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        say(shown::draw(&self.root, &self.from)?)?;
-        Ok(ExitCode::Good)
+        say(shown::draw(&self.root, &self.from)?).map(|()| ExitCode::Good)
     }
 }
 

@@ -10,19 +10,26 @@ mod run;
 mod score;
 mod verify;
 
+use crate::progress;
 use clap::builder::{PossibleValue, PossibleValuesParser, RangedU64ValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use mpm_verify::case::{Case, Tier, find_level};
 use mpm_verify::cases;
 use mpm_verify::error::{Error, ExitCode};
 use mpm_verify::files::lock::hold;
-use mpm_verify::report::describe;
-use mpm_verify::run::checkpoint::Saving;
-use mpm_verify::scheme::Scheme;
+use mpm_verify::golden::{self, Goldens};
+use mpm_verify::record::{Record, Version};
+use mpm_verify::report::{Files, describe, discard_report};
+use mpm_verify::run::checkpoint::{self, Saving};
+use mpm_verify::scheme::{BasisName, Scheme};
+use mpm_verify::size::GIBIBYTE;
 use mpm_verify::spec::RunSpec;
+use mpm_verify::study::gather::Gathered;
+use mpm_verify::study::judge::exit_code;
+use mpm_verify::study::plan::{Plan, Shard};
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Verification bench of the locking-free material point method.

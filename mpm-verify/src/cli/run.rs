@@ -6,19 +6,15 @@ use crate::progress::{Teller, so_far};
 use mpm_verify::cases::scene::SceneFile;
 use mpm_verify::error::one_line;
 use mpm_verify::files::{read_text, write_whole};
-use mpm_verify::golden;
 use mpm_verify::parameter::Parameters;
-use mpm_verify::record::Record;
-use mpm_verify::report::{Files, discard_report, single};
-use mpm_verify::run::checkpoint::{self, Identity, Saving};
+use mpm_verify::report::single;
+use mpm_verify::run::checkpoint::Identity;
 use mpm_verify::run::size::available_memory;
 use mpm_verify::run::{RECORD, require_tables};
-use mpm_verify::scheme::{BasisName, RemedyName, TransferName};
-use mpm_verify::size::{GIBIBYTE, Size};
+use mpm_verify::scheme::{RemedyName, TransferName};
+use mpm_verify::size::Size;
 use mpm_verify::study::found::own_record;
-use mpm_verify::study::judge::{exit_code, judge, judged_run};
-use mpm_verify::study::plan::Plan;
-use std::path::Path;
+use mpm_verify::study::judge::{judge, judged_run};
 
 #[derive(Args)]
 pub(crate) struct Run {

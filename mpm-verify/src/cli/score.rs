@@ -3,7 +3,6 @@
 use super::*;
 use mpm_verify::cases::find_scored;
 use mpm_verify::report::{junit, scored};
-use mpm_verify::scheme::BasisName;
 use mpm_verify::score::{Scores, export::export, gate::Gate};
 
 #[derive(Args)]

@@ -1,18 +1,9 @@
 //! The commands `verify` and `report`: runs of a tier, judged and reported.
 
 use super::*;
-use crate::progress;
-use mpm_verify::golden::{self, Goldens};
 use mpm_verify::night::Night;
-use mpm_verify::record::Record;
-use mpm_verify::report::{Files, discard_report, write_report};
-use mpm_verify::run::checkpoint;
-use mpm_verify::size::GIBIBYTE;
-use mpm_verify::study::gather::Gathered;
-use mpm_verify::study::judge::exit_code;
-use mpm_verify::study::plan::{Plan, Shard};
+use mpm_verify::report::write_report;
 use mpm_verify::study::schedule::{make_runs, require_memory};
-use std::path::Path;
 
 #[derive(Args)]
 pub(crate) struct Verify {

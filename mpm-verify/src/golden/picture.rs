@@ -59,17 +59,14 @@ pub(super) fn small(width: u32, draw: impl Fn(&Path) -> Result<(), PlotError>) -
 
 /// The verdict on the pixels in which a picture differs from the one that is kept.
 pub(super) fn judged(metric: &str, kept: &Path, drawn: Result<RgbImage, Error>, blessing: &str) -> Verdict {
-    match drawn.and_then(|drawn| pixels_of(kept, &drawn)) {
+    let different = drawn.and_then(|drawn| match read(kept, DOCUMENT)?.ends_with(END_OF_PNG) {
+        true => Ok(different_pixels(&read_picture(kept)?, &drawn)),
+        false => Err(Error::file(kept, OTHER_LAYOUT)),
+    });
+    match different {
         Ok(different) => of_drift(Finding::within(metric, different as f64, 0.0, 0.0, blessing)),
         Err(error) => mismatch(metric, &error.to_string()),
     }
-}
-
-fn pixels_of(kept: &Path, drawn: &RgbImage) -> Result<usize, Error> {
-    if !read(kept, DOCUMENT)?.ends_with(END_OF_PNG) {
-        return Err(Error::file(kept, OTHER_LAYOUT));
-    }
-    Ok(different_pixels(&read_picture(kept)?, drawn))
 }
 
 #[cfg(test)]

@@ -3,12 +3,9 @@
 use super::errors::{Entry, Errors};
 use super::prelude::*;
 use super::price;
-use super::words::{local_orders, number, order};
+use crate::draw::ReferenceLine;
 use crate::draw::style::Panel;
-use crate::draw::{Dash, Marker, ReferenceLine};
 use crate::figure::below_the_curves;
-use crate::files::write_json;
-use crate::study::convergence::{Point, precision};
 
 /// The picture that shows times taken.
 pub(super) const CPU_PICTURE: &str = "cpu-precision.png";

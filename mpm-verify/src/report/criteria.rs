@@ -3,9 +3,7 @@
 
 use super::prelude::*;
 use super::values::{quantity, read_format};
-use crate::results::{Column, Label, PAIR, ResultTable, SHORT, fixed, is_flip, order};
-use crate::scheme::TransferName;
-use serde::Deserialize;
+use crate::results::{PAIR, order};
 
 /// The bases that are compared.
 pub(super) const BASES: [BasisName; 2] = [BasisName::Gimp, BasisName::Bspline2];

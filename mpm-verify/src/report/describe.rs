@@ -4,13 +4,8 @@
 use super::document::terminal::{WIDTH, cut, painted, wrapped};
 use super::document::{Document, Text};
 use super::prelude::*;
-use super::words::{bless_commands, demand, kind, number, outcome, quantity, sentence};
-use crate::case::Tier;
-use crate::error::ExitCode;
-use crate::spec::RunSpec;
+use super::words::quantity;
 use crate::study::judge::exit_code;
-use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Columns of the meaning of a metric, beside its name and value.
 const MEANING: usize = 47;

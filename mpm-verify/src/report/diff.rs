@@ -2,16 +2,8 @@
 
 use super::convergence::CPU_PICTURE;
 use super::prelude::*;
-use super::words::{number, outcome};
-use crate::draw::triptych::{different_pixels, triptych};
-use crate::draw::write_small_png;
-use crate::error::ExitCode;
-use crate::files::{self, make_folder, read_versioned};
-use crate::study::summary::SCHEMA;
-use image::RgbImage;
-use serde::Serialize;
-use serde_json::{Value, json};
-use std::fmt::Write;
+use crate::draw::triptych::different_pixels;
+use crate::files;
 
 /// An entry of two tables that is not the same.
 #[derive(Serialize)]

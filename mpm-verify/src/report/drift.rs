@@ -1,8 +1,6 @@
 //! Pictures of what has drifted: golden | now | difference.
 
 use super::prelude::*;
-use crate::draw::triptych::triptych;
-use crate::draw::write_small_png;
 use crate::golden::Goldens;
 
 /// Draws, for each run of a case that has drifted from its golden, its watched series beside the golden's.

@@ -1,7 +1,6 @@
 //! How a run came out: its outcome, and whether what it leaves is noise or it broke down.
 
 use super::prelude::*;
-use super::words;
 use crate::study::judge::broke_as_known;
 use std::f64::consts::FRAC_1_SQRT_2;
 

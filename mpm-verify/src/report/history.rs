@@ -3,8 +3,6 @@
 use super::prelude::*;
 use crate::error::is_unfit;
 use crate::files::{read_rows, rows_text};
-use jiff::civil::Date;
-use serde::{Deserialize, Serialize};
 
 const FILE: &str = "history.csv";
 const COST: &str = "cpu_s";

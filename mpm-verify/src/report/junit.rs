@@ -1,7 +1,6 @@
 //! The verdicts in the format of JUnit, which continuous integration servers show.
 
 use super::prelude::*;
-use super::words::{demand, kind, outcome};
 use crate::score::Scores;
 use crate::score::gate::{Gate, INAPPLICABLE};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};

@@ -6,8 +6,6 @@
 use super::prelude::*;
 use super::rows::{Row, read, text};
 use super::{SUMMARY, history};
-use crate::files::{make_folder, read_versioned};
-use crate::study::summary::SCHEMA;
 
 /// Most bytes of the rows.
 const MOST_ROWS: usize = 1_000_000;

@@ -8,7 +8,6 @@ use super::document::{self, Table, Text};
 use super::fate::Fate;
 use super::prelude::*;
 use super::speed::Speed;
-use crate::results::fixed;
 
 /// The kinds of solvers that have a panel of their own.
 pub(super) const PANELS: [&str; 3] = ["explicit", "implicit", "poro"];

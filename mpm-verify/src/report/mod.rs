@@ -39,9 +39,9 @@ mod values;
 mod verdicts;
 mod words;
 
-use crate::files::{SNAPSHOTS, discard, files_in, folders_in, read_text, require_inside, write_dense_json};
+use crate::files::{folders_in, write_dense_json};
 use crate::golden::{self, Goldens};
-use crate::run::{series, slim::slim};
+use crate::run::slim::slim;
 use prelude::*;
 use speed::Speed;
 

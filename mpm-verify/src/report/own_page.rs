@@ -2,8 +2,6 @@
 
 use super::document::{Document, Shown, Text};
 use super::prelude::*;
-use super::words::{number, sentence};
-use crate::run::series;
 use crate::table;
 
 /// The file.

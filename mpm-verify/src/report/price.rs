@@ -1,8 +1,6 @@
 //! Cost of an error: the runs on the Pareto front, and the cost to reach a target error.
 
 use super::prelude::*;
-use super::words;
-use crate::study::convergence::{Point, precision};
 
 /// By rising cost, the points whose error is less than `gain` times that of the point before: with a gain of one, those that
 /// no other beats in both.

@@ -1,11 +1,6 @@
 //! Explicit and implicit runs of what both can solve, at equal error: cost, steps and iterations.
 
 use super::prelude::*;
-use super::words::list;
-use crate::record::Status;
-use crate::results::{SHORT, fixed};
-use crate::scheme::TransferName;
-use serde::Deserialize;
 
 /// Name of the table on pages.
 pub(super) const NAME: &str = "explicit-implicit";

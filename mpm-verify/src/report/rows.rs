@@ -3,11 +3,7 @@
 use super::prelude::*;
 use crate::check::Finding;
 use crate::files::{read_rows, rows_text};
-use crate::parameter::Parameters;
-use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Status, Timing, Version, WorkDone};
-use crate::spec::RunSpec;
-use jiff::civil::Date;
-use serde::{Deserialize, Serialize};
+use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Timing, Version, WorkDone};
 
 /// How the status of a run that broke down begins; the time follows.
 const BROKE: &str = "failed at ";

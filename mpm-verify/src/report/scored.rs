@@ -6,15 +6,9 @@ use super::document::Document;
 use super::document::terminal::{aligned, cut, wrapped};
 use super::prelude::*;
 use super::tables::RESULTS;
-use super::words::{outcome, sentence};
 use super::{rows, verdicts};
-use crate::files::{make_folder, write_json};
 use crate::foreign::Asked;
-use crate::record::Status;
-use crate::results::fixed;
 use crate::score::{Scored, Scores, gate::Gate};
-use serde_json::{Value, json};
-use std::fmt::Write;
 
 /// Longest name of a code in the table.
 const LONGEST: usize = 36;

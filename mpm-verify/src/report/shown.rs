@@ -4,11 +4,7 @@ use super::prelude::*;
 use super::speed::Speed;
 use super::{convergence, draw_own, rows, solvers, sweep, together};
 use crate::bench;
-use crate::case::Tier;
-use crate::draw::write_small_png;
-use crate::files::{DOCUMENT, discard, make_folder, read};
-use crate::study::convergence::convergence;
-use image::RgbImage;
+use crate::files::read;
 use image::imageops::{self, FilterType};
 use std::fs;
 

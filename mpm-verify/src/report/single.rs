@@ -1,12 +1,9 @@
 //! The pictures of one run by itself.
 
 use super::prelude::*;
-use super::words::number;
 use super::{draw_own, own_page, owning};
 use crate::draw::{FieldFigure, FieldPanel, SolidFigure, SolidPanel};
 use crate::draw::{animate_fields, domains, draw_charts, draw_fields, draw_solids};
-use crate::files::{SNAPSHOTS, files_in};
-use crate::run::series;
 use crate::table::Table;
 
 /// Hundredths of a second that a frame of an animation is shown.

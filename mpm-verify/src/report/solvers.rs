@@ -2,9 +2,6 @@
 
 use super::prelude::*;
 use super::rivals::{Problem, problems};
-use crate::draw::{Dash, Marker};
-use crate::figure::{Figure, Panel};
-use crate::scheme::RuleName;
 
 /// One curve each.
 const MARKERS: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];

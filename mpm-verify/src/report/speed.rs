@@ -2,7 +2,6 @@
 
 use super::prelude::*;
 use super::price::{Price, Prices};
-use super::words::list;
 use crate::draw::{Ratios, draw_ratios};
 
 /// Standard MPM, and the F̄ that neither creeps nor makes energy: the two to choose from. The others are there for

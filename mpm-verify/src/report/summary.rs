@@ -4,7 +4,6 @@ use super::document::{Document, Table, Text};
 use super::fate::Fate;
 use super::prelude::*;
 use super::speed::Speed;
-use super::words::{self, bless_commands, local_orders, number, order};
 use super::{criteria, map, verdicts};
 use crate::metric::Metric;
 

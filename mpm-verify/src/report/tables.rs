@@ -6,13 +6,9 @@
 
 use super::document::Text;
 use super::prelude::*;
-use super::speed::{self, Speed};
+use super::speed::Speed;
 use super::values::Values;
-use super::{criteria, map, rivals, rows, summary};
-use crate::files::read_text;
-use crate::results::ResultTable;
-use crate::study::convergence::convergence;
-use jiff::civil::Date;
+use super::{criteria, map, rivals, rows, speed, summary};
 use std::fs;
 
 const BEGIN: &str = "<!-- table ";

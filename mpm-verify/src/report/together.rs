@@ -1,10 +1,8 @@
 //! Pictures of several cases, a panel each: those that pages of cases share.
 
 use super::prelude::*;
-use crate::draw::{Dash, ReferenceLine};
-use crate::figure::{Figure, Panel};
+use crate::draw::ReferenceLine;
 use crate::scheme::NameError;
-use serde::Deserialize;
 
 /// Colour of what is predicted.
 const PREDICTION: usize = 7;

@@ -7,7 +7,7 @@
 
 use super::prelude::*;
 use super::rows::Row;
-use crate::results::{Format, fixed, percent, scientific, share};
+use crate::results::{percent, scientific, share};
 
 const BEGIN: &str = "<!--=";
 const CLOSE: &str = "-->";

@@ -2,7 +2,7 @@
 
 use super::document::{Cell, Row, Table, Text};
 use super::prelude::*;
-use super::words::{kind, name, number, outcome, quantity};
+use super::words::{name, quantity};
 use crate::study::judge;
 
 const HEAD: [&str; 8] = ["outcome", "kind", "check", "metric", "value", "reference", "tolerance", "source"];

@@ -1,8 +1,12 @@
 //! The words for outcomes, kinds and numbers, the same on the terminal, the pages and in files.
 
-use super::prelude::*;
 use crate::accuracy::Order;
-use crate::study::judge::broke_as_known;
+use crate::distinct;
+use crate::record::Record;
+use crate::study::convergence::Convergence;
+use crate::study::judge::{broke_as_known, outcome_of_run};
+use crate::study::summary::{CaseStudy, Summary};
+use crate::verdict::{Kind, Outcome, Verdict};
 
 /// Origin of the runs of a case: the program, the night and the commit, as far as they are known.
 pub(super) fn made_by(study: &CaseStudy) -> [String; 3] {

@@ -10,17 +10,12 @@
 //!
 //! Numbers are little-endian; what follows the checksum is written by serde in the format of `postcard`.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::files::{self, Mark, TABLE};
-use crate::parameter::Parameters;
-use crate::record::{Record, Timing, Version};
-use crate::spec::RunSpec;
+use super::*;
+use crate::files;
+use crate::record::Version;
 use crc32fast::Hasher;
 use mpm_core::{MemoryError, Saved};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 use thiserror::Error;
 
 /// Name of its file.

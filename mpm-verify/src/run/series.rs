@@ -1,12 +1,11 @@
 //! The time series of a run: a table that grows by a row at a time.
 
-use crate::error::Error;
-use crate::files::{Mark, Output, discard};
+use super::*;
+use crate::files::Output;
 use crate::job::Row;
 use crc32fast::Hasher;
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
 
 /// Name of its file.
 pub const FILE: &str = "series.csv";

@@ -1,12 +1,7 @@
 //! Memory estimate before a run, extrapolated from coarser grids; a scene that does not fit is never built.
 
-use crate::case::Case;
-use crate::error::Error;
-use crate::job::Job;
-use crate::parameter::Parameters;
+use super::*;
 use crate::size::{GIBIBYTE, MEBIBYTE, Size};
-use crate::spec::RunSpec;
-use std::path::Path;
 
 /// Bytes of the largest scene that is built for its measurement instead of extrapolated from a coarser one.
 const BUILT: f64 = 32.0 * MEBIBYTE;

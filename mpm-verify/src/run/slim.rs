@@ -1,12 +1,10 @@
 //! A run without the files that no report reads.
 
-use super::{COLLECTION, PARTICLES, RECORD, SNAPSHOTS, series, tables};
-use crate::error::Error;
-use crate::files::{Mark, TABLE, discard, files_in, read, read_versioned, write_json};
-use crate::record::{Record, SCHEMA};
+use super::series;
+use super::*;
+use crate::files::read_versioned;
+use crate::record::SCHEMA;
 use crate::table::Table;
-use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 /// Rows of a series that no picture shows: a multiple of those of a golden, which are among them.
 pub const ROWS: usize = 400;

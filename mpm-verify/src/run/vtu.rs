@@ -4,14 +4,12 @@
 //! All numbers stand in one appended section, raw and compressed by zlib. Positions and values are of single precision,
 //! which is for looking at; what is to be computed with is in the CSV file beside it.
 
-use crate::error::Error;
+use super::*;
 use crate::files::write_whole;
-use crate::job::Column;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use quick_xml::escape::escape;
 use std::io::{self, Write};
-use std::path::Path;
 
 /// Columns of positions.
 const AXES: [&str; 3] = ["x", "y", "z"];

@@ -34,7 +34,8 @@ impl Gate {
     /// Whether a verdict among `all` that is not a failure stands in the way.
     pub(crate) fn stops(&self, all: &[Verdict], verdict: &Verdict) -> bool {
         let open = verdict.outcome == Outcome::NotJudged;
-        let wanted = verdict.is_wanted() && (self.strict || judges_nothing(all));
+        let none_is_judged = || all.iter().filter(|v| v.is_wanted()).all(|v| v.outcome == Outcome::NotJudged);
+        let wanted = verdict.is_wanted() && (self.strict || none_is_judged());
         let required = self.require.contains(&verdict.check);
         open && (wanted || required)
     }
@@ -69,10 +70,4 @@ impl Gate {
         let failed = scores.judged().iter().any(|(_, all, _)| all.iter().any(Verdict::failed));
         if failed || self.refusal(scores).is_some() { ExitCode::TruthFailed } else { ExitCode::Good }
     }
-}
-
-/// Whether no wanted quantity was judged.
-fn judges_nothing(all: &[Verdict]) -> bool {
-    let mut wanted = all.iter().filter(|v| v.is_wanted());
-    wanted.all(|v| v.outcome == Outcome::NotJudged)
 }

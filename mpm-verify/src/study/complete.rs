@@ -2,7 +2,6 @@
 
 use super::plan::Plan;
 use super::*;
-use crate::files::read_rows;
 
 /// Key of a kept row's run, and its program; the row has more columns.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]

@@ -1,9 +1,6 @@
 //! Results of runs in their folders.
 
 use super::*;
-use crate::record;
-use crate::run::checkpoint::{Identity, Refusal};
-use crate::run::require_tables;
 
 /// The record of a run in `folder`, if the run has ended there. One of this program is of the parameters asked for, says
 /// what can be, and vouches for the tables beside it; of another program's only the run is known.

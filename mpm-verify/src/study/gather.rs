@@ -6,7 +6,6 @@ use super::judge::judge;
 use super::plan::{self, Plan, PlannedRun};
 use super::summary::{CaseStudy, Summary};
 use super::*;
-use crate::record;
 use rayon::prelude::*;
 
 /// The runs of a whole plan, gathered from the folders of its shards.

@@ -2,9 +2,7 @@
 
 use super::*;
 use crate::check::Finding;
-use crate::error::ExitCode;
 use crate::record::BREAKS_DOWN;
-use crate::run::{Progress, execute};
 
 /// Runs `spec` of `case` and judges it: see [`execute`].
 ///

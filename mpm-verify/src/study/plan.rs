@@ -1,9 +1,7 @@
 //! Plan of a folder of runs, and the share of it to run.
 
 use super::*;
-use crate::files::write_json;
 use crate::spec::{Level, run_folder};
-use std::collections::BTreeSet;
 
 /// Version of the plan's format.
 const SCHEMA: u32 = 1;

@@ -5,7 +5,6 @@ use super::judge::judged_run;
 use super::plan::Plan;
 use super::*;
 use crate::files::lock::hold;
-use crate::run::discard_run;
 use crate::run::size::require_together;
 use crate::size::Size;
 use std::sync::{Mutex, PoisonError};

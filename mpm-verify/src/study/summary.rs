@@ -3,7 +3,6 @@
 use super::convergence::Convergence;
 use super::judge::{broke_as_known, outcome_of_run};
 use super::*;
-use crate::error::ExitCode;
 use crate::gallery::Picture;
 use crate::night::Night;
 

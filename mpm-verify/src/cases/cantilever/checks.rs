@@ -1,7 +1,6 @@
 //! Checks of the cantilever.
 
 use super::*;
-use crate::cases::checks::quadratic;
 
 /// Largest relative error of the corner's u_y with quadratic splines, by level: the discretisation error that has been
 /// asked for, half of it from one level to the next.

@@ -1,7 +1,6 @@
 //! Figures of the cantilever, after those of the paper.
 
 use super::*;
-use crate::cases::pictures::{Fields, field_panel};
 
 /// Range of σ_xx that is drawn (Pa).
 const STRESS_RANGE: f64 = 4e4;

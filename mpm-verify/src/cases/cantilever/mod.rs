@@ -117,16 +117,13 @@ pub(super) fn case() -> Case {
         .cost(|spec| 1e-3 * spec.level.h.powi(-3))
         .pictures(figures::draw)
         .tables(tables())
-        .breaks_down(breaks_down)
-}
-
-/// The reason why a run without stabilisation, or with the paper's elements, is known to break down.
-fn breaks_down(r: &Record) -> Option<&'static str> {
-    let c = Setup::<Cantilever>::of_record(r).ok()?;
-    if c.stabilisation == Stabilised::None {
-        return Some("without stabilisation functions at the rim see fewer strains than they have unknowns");
-    }
-    (c.basis() == Q8 && c.load_steps > 40).then_some("particles of serendipity elements leave the body")
+        .breaks_down(|r| {
+            let c = Setup::<Cantilever>::of_record(r).ok()?;
+            if c.stabilisation == Stabilised::None {
+                return Some("without stabilisation functions at the rim see fewer strains than they have unknowns");
+            }
+            (c.basis() == Q8 && c.load_steps > 40).then_some("particles of serendipity elements leave the body")
+        })
 }
 
 fn plan() -> Plan {

@@ -2,13 +2,9 @@
 
 use super::edge::{Edge, extremes};
 use super::*;
-use crate::cases::checks::newton_rate;
-use crate::cases::observe::displacement;
 use mpm_core::implicit::{Serendipity, Settings};
-use mpm_core::material::{Hypoelastic, JaumannUpdate};
-use mpm_core::stage::BodyForce;
+use mpm_core::material::Hypoelastic;
 use mpm_solvers::implicit;
-use std::ops::RangeInclusive;
 
 /// Length and depth (m).
 pub(super) const LENGTH: f64 = 1.0;

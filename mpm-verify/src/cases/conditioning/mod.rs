@@ -4,7 +4,6 @@
 
 mod run;
 
-use super::analysis::case_of;
 use crate::cases::prelude::*;
 use run::HALF_AXES;
 

@@ -1,10 +1,8 @@
 //! Matrices of the half ellipse at its places, and of the cantilever.
 
 use super::*;
-use crate::cases::analysis::{Analysis, visited};
 use crate::cases::forms::{Cloud, Field, Hats, Means, coarse, eigenvalues, log10_condition, scaled, singular};
 use mpm_core::implicit::{Moduli, OfHats};
-use nalgebra::DMatrix;
 
 /// Particles a cell of the displacement and direction.
 const PARTICLES: usize = 3;

@@ -1,7 +1,6 @@
 //! The checks of the column. Tolerances are derived in `docs/consolidation.md`.
 
 use super::*;
-use crate::cases::checks::{at_least, finest, index, ladders_by, observed_order, orders_in_time};
 use crate::exact::consolidation::layer;
 
 /// The order in h that theory gives.

@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::poro::*;
 use crate::exact::consolidation::between;
-use crate::statistics::growth;
 use mpm_core::poro::{Face, Settings, Tangent, VolumeRate};
 
 /// Bulk parameter K, shear modulus G (Pa) and porosity of the undeformed column.

@@ -3,7 +3,6 @@
 use super::reference::{Measure, Solution, StressField};
 use super::run::CREEP;
 use super::*;
-use crate::cases::checks::ladders_by;
 use Measure::{EdgeMean, MidEdge, Tip};
 
 /// Relative tolerance of mid-edge and edge mean at h ≤ 1 m, per metre of cell size.
@@ -106,12 +105,6 @@ impl Setup<Cook> {
             _ => return None,
         };
         Some(why.to_owned())
-    }
-
-    /// Whether damping or transfer slow the motion so that rest may take more time than is given.
-    fn is_slowed(&self) -> bool {
-        let filters = self.transfer() == TransferName::Xpic2 && !self.is_default();
-        self.damping > 0.0 || self.flip < 1.0 || filters
     }
 
     /// Whether the body has more particles than those with which it is known to be stiff enough.
@@ -293,7 +286,8 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .when(|c| c.is_explicit() && !c.is_recursive() && !c.rests_late())
             .unless(|c| c.swings())
             .unless(|c| {
-                let open = c.metric(AT_REST) == 0.0 && c.is_slowed();
+                let filters = c.transfer() == TransferName::Xpic2 && !c.is_default();
+                let open = c.metric(AT_REST) == 0.0 && (c.damping > 0.0 || c.flip < 1.0 || filters);
                 open.then(|| "damping or the transfer slows the motion: rest takes more time than is given".to_owned())
             })
             .within(AT_REST, |_| 1.0, |_| 0.0)

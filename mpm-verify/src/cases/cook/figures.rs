@@ -1,7 +1,6 @@
 //! Figures of Cook's membrane: the state of rest, its convergence, and the way there.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, remedy_title};
 use reference::Measure;
 
 /// The mean normal stress is drawn between plus and minus this (Pa); the reference reaches 0.127 Pa

@@ -1,7 +1,6 @@
 //! The membrane's geometry, and the reference: an independent finite-element solution, valid for stated parameters.
 
 use super::*;
-use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/cook.json");
 const FIELD: &str = include_str!("../../../references/cook_mean_stress.csv");

@@ -3,12 +3,11 @@
 use super::probes::Probes;
 use super::reference::{LEFT_HEIGHT, RIGHT_HEIGHT};
 use super::*;
-use crate::cases::observe::{displacement, mean_stress};
-use crate::statistics::{Line, checkerboard};
+use crate::cases::observe::mean_stress;
+use crate::statistics::Line;
+use mpm_core::Memory;
 use mpm_core::implicit::Settings;
 use mpm_core::stage::{DeadForce, KineticDamping, Load, Observation, RestCriterion};
-use mpm_core::{Memory, Saved};
-use std::ops::RangeInclusive;
 
 /// Particles on a side count as inside (m).
 const ON_SIDE: f64 = 1e-9;
@@ -57,11 +56,6 @@ impl Setup<Cook> {
         NeoHookean::new(self.young_modulus, self.poisson_ratio)
     }
 
-    /// Initial positions (m) of the particles.
-    fn places(&self) -> Vec<[f64; 2]> {
-        self.start_at(seed(self.pitch()))
-    }
-
     fn particles(&self) -> Result<Particles<2>, Fault> {
         self.particles_at(seed(self.pitch()), self.pitch(), self.density)
     }
@@ -103,17 +97,6 @@ impl Setup<Cook> {
         let scene =
             Scene::new(Grid::new(h, [along, up])?, Bodies::new(self.law()?, particles)?).constrain(clamp(0, End::Lo));
         Ok(loads.into_iter().fold(scene, Scene::load))
-    }
-
-    /// Checks durations of an explicit run against each other.
-    fn check_together(&self) -> Result<(), Error> {
-        for (name, periods) in [("rest_window", self.rest_window), ("load_ramp", self.load_ramp)] {
-            if periods >= self.max_periods {
-                let most = self.max_periods;
-                return Err(Error::Input(format!("{name} = {periods} is not below max_periods = {most}")));
-            }
-        }
-        Ok(())
     }
 }
 
@@ -169,11 +152,6 @@ pub(super) fn energy_defect(kinetic: f64, stress_work: f64, losses: f64, load_wo
     kinetic + stress_work + losses - load_work
 }
 
-fn has_stopped(run: &dyn Simulation<2>) -> bool {
-    let mut velocities = run.particles().velocity.iter().flatten();
-    velocities.all(|v| *v == 0.0)
-}
-
 impl Membrane {
     /// The criterion of rest, with its observations so far.
     fn rest(&self, seen: &Seen) -> Result<RestCriterion, Fault> {
@@ -207,7 +185,7 @@ impl Membrane {
         phase.steps(steps - 1)?;
         let run = phase.run.as_mut();
         let mut work_residual = step_and_weigh(run, self.dt)?;
-        if has_stopped(run) {
+        if run.particles().velocity.iter().flatten().all(|v| *v == 0.0) {
             // Kinetic damping struck in this very step: weigh the next one.
             work_residual = step_and_weigh(run, self.dt)?;
         }
@@ -304,13 +282,18 @@ impl Problem<2> for Membrane {
         require_quotient("load / young_modulus", setup.load / setup.young_modulus, LOAD_OVER_MODULUS, why)?;
         let dt = if setup.is_explicit() {
             setup.forbid(&OF_QUASI_STATIC)?;
-            setup.check_together()?;
+            for (name, periods) in [("rest_window", setup.rest_window), ("load_ramp", setup.load_ramp)] {
+                if periods >= setup.max_periods {
+                    let most = setup.max_periods;
+                    return Err(Error::Input(format!("{name} = {periods} is not below max_periods = {most}")));
+                }
+            }
             courant_time_step(setup.cfl, setup.h, setup.law()?.wave_speed(setup.density))
         } else {
             setup.forbid(&OF_EXPLICIT)?;
             1.0 / f64::from(setup.load_steps)
         };
-        Ok(Self { probes: Probes::new(setup.places(), setup.h)?, setup, dt })
+        Ok(Self { probes: Probes::new(setup.start_at(seed(setup.pitch())), setup.h)?, setup, dt })
     }
 
     fn discretisation(&self) -> Discretisation {

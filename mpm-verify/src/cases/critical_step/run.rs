@@ -1,12 +1,10 @@
 //! Scene and observations of the lattice: a row for every step that is tried.
 
 use super::*;
-use crate::cases::build::{lattice, stretched};
 use crate::cases::noise::noise;
 use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
 use mpm_core::explicit::Settings;
-use mpm_core::material::Viscous;
 use mpm_solvers::solver;
 
 /// Cells of a period, or of the body where it has a free end; cells beside it there.

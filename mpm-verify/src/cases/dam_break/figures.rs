@@ -1,8 +1,8 @@
 //! Figures: the paper's Figure 12, the flow against time, an animation.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, Fields, basis_title, field_panel, frames, remedy_title};
-use crate::draw::{animate_fields, signed};
+use crate::cases::pictures::frames;
+use crate::draw::animate_fields;
 use crate::exact::dam_break::{front_curve, time_scale, uncertainty};
 
 /// From above: standard, the paper's, ours.

@@ -175,7 +175,48 @@ const CHANGED: Label = ("changed", |r| r.set.join(", ").replace('_', " "));
 const AT_REST: [&str; 3] = ["", "start=gravity-stage", LADDER];
 
 fn tables() -> Vec<ResultTable> {
-    vec![overview(), of_flow(), at_rest(), studies(), sums()]
+    let range = |r: &Record| {
+        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
+        format!("{least} … {most}")
+    };
+    vec![
+        overview(),
+        ResultTable::of("dam-break-flow", |r| r.set == [LADDER])
+            .by(&[SCHEME, CELLS])
+            .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(2))
+            .metric("rms error (m)", FRONT_RMS_ERROR, fixed(2))
+            .metric("arrival off by (ms)", ARRIVAL_ERROR, fixed(0).times(1e3))
+            .metric("p rms (kPa)", PRESSURE_RMS, fixed(1).times(1e-3))
+            .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
+            .metric("in tension", TENSION_SHARE, share(0))
+            .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
+            .metric("with stress work", ENERGY_RATIO_2S, fixed(3))
+            .text("J", range)
+            .cpu(),
+        at_rest(),
+        // Shares of PIC, walls, start, last bits: at h = 0.25 m.
+        ResultTable::of("dam-break-studies", |r| {
+            let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
+            let flow = r.set.iter().all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
+            ours && flow && is_flip(r) && r.level == "h0.25"
+        })
+        .by(&[SCHEME, CHANGED])
+        .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(3))
+        .metric("rms error (m)", FRONT_RMS_ERROR, fixed(3))
+        .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
+        .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
+        .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3)),
+        ResultTable::of("dam-break-sums", |r| {
+            let shown = !r.is_default() || r.remedy() == FbarConsistent;
+            let short = [SHORT, "duration=0.6"].contains(&&*r.set.join(" "));
+            r.status == Status::Ok && shown && !short
+        })
+        .by(&[SCHEME, CELLS, CHANGED])
+        .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3))
+        .metric("mean x (m)", CENTRE_X_MEAN, fixed(3))
+        .metric("mean y (m)", CENTRE_Y_MEAN, fixed(3))
+        .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3)),
+    ]
 }
 
 /// The front's error, and the kinetic and potential energy that is left.
@@ -200,25 +241,6 @@ fn overview() -> ResultTable {
         .columns(RUNS.map(column))
 }
 
-fn of_flow() -> ResultTable {
-    let range = |r: &Record| {
-        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
-        format!("{least} … {most}")
-    };
-    ResultTable::of("dam-break-flow", |r| r.set == [LADDER])
-        .by(&[SCHEME, CELLS])
-        .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(2))
-        .metric("rms error (m)", FRONT_RMS_ERROR, fixed(2))
-        .metric("arrival off by (ms)", ARRIVAL_ERROR, fixed(0).times(1e3))
-        .metric("p rms (kPa)", PRESSURE_RMS, fixed(1).times(1e-3))
-        .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
-        .metric("in tension", TENSION_SHARE, share(0))
-        .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
-        .metric("with stress work", ENERGY_RATIO_2S, fixed(3))
-        .text("J", range)
-        .cpu()
-}
-
 fn at_rest() -> ResultTable {
     /// ρ g H (Pa); on the gate ½ H times that.
     fn pressure(r: &Record) -> f64 {
@@ -240,32 +262,4 @@ fn at_rest() -> ResultTable {
     .value("on the gate", gate, percent(2))
     .value("pressure at the floor", floor, percent(2))
     .metric("profile rms", PRESSURE_PROFILE_ERROR, percent(2))
-}
-
-/// Shares of PIC, walls, start, last bits: at h = 0.25 m.
-fn studies() -> ResultTable {
-    ResultTable::of("dam-break-studies", |r| {
-        let ours = r.remedy() == FbarConsistent && BASES.contains(&r.basis());
-        let flow = r.set.iter().all(|set| !set.starts_with("cfl=") && !set.starts_with("duration="));
-        ours && flow && is_flip(r) && r.level == "h0.25"
-    })
-    .by(&[SCHEME, CHANGED])
-    .metric("front at 0.4 s (m)", FRONT_X_EARLY, fixed(3))
-    .metric("rms error (m)", FRONT_RMS_ERROR, fixed(3))
-    .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
-    .metric("p − Πp (kPa)", CHECKERBOARD_RMS, fixed(1).times(1e-3))
-    .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3))
-}
-
-fn sums() -> ResultTable {
-    ResultTable::of("dam-break-sums", |r| {
-        let shown = !r.is_default() || r.remedy() == FbarConsistent;
-        let short = [SHORT, "duration=0.6"].contains(&&*r.set.join(" "));
-        r.status == Status::Ok && shown && !short
-    })
-    .by(&[SCHEME, CELLS, CHANGED])
-    .metric("impulse on the wall (kN s/m)", WALL_IMPULSE, fixed(2).times(1e-3))
-    .metric("mean x (m)", CENTRE_X_MEAN, fixed(3))
-    .metric("mean y (m)", CENTRE_Y_MEAN, fixed(3))
-    .metric("K + P at 2 s", MOTION_RATIO_2S, fixed(3))
 }

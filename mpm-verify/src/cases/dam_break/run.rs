@@ -3,11 +3,8 @@
 use super::flow::{Flow, Start, State};
 use super::*;
 use crate::exact::hydrostatic::Hydrostatic;
-use crate::statistics::checkerboard;
 use mpm_core::explicit::Settings;
-use mpm_core::stage::{RigidNodes, smooth_rise};
 use mpm_solvers::solver;
-use nalgebra::{SMatrix, Vector3};
 
 /// Height (m) of the grid: jets rise to 10 m.
 const HEIGHT: f64 = 16.0;
@@ -55,11 +52,6 @@ impl Dam {
         if self.is_staged() { rows } else { 0 }
     }
 
-    /// The longest period (s) of the water behind the gate.
-    fn period(&self) -> f64 {
-        4.0 * DEPTH / self.law.wave_speed(self.water.density)
-    }
-
     fn is_staged(&self) -> bool {
         self.setup.start == Rest::GravityStage
     }
@@ -82,11 +74,10 @@ impl Dam {
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
         let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * smooth_rise(time, rise)]));
         let body = Bodies::new(self.law, self.particles()?)?;
-        Ok(Scene::new(grid(self.setup.h)?, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall {
-            axis,
-            end,
-            kind,
-        })))
+        let h = self.setup.h;
+        let [along, up] = [TANK, HEIGHT].map(|length| (length / h).round() as usize);
+        let grid = Grid::new(h, [Axis::walls(0.0, along), Axis::bounded(0.0, up, (Side::Wall, Side::Open))])?;
+        Ok(Scene::new(grid, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall { axis, end, kind })))
     }
 
     fn settings(&self, damping: f64) -> Result<Settings<2>, Fault> {
@@ -104,7 +95,8 @@ impl Dam {
 
     /// From the exact start: holds the water behind the gate for a while, to measure it. The flow begins anew.
     fn hold(&self, start: &mut Start, phase: &mut Phase<2>) -> Result<(), Fault> {
-        let steps = (PERIODS * self.period() / self.dt).round() as u64;
+        let longest_period = 4.0 * DEPTH / self.law.wave_speed(self.water.density);
+        let steps = (PERIODS * longest_period / self.dt).round() as u64;
         let before = impulses(&*phase.run);
         phase.steps(1)?;
         start.pressures = seeded_pressures(&mut *phase.run);
@@ -162,12 +154,6 @@ impl Dam {
             log_jacobian_gap: totals.log_jacobian_gap_rms,
         }
     }
-}
-
-/// The tank, open above.
-fn grid(h: f64) -> Result<Grid<2>, Fault> {
-    let cells = |length: f64| (length / h).round() as usize;
-    Grid::new(h, [Axis::walls(0.0, cells(TANK)), Axis::bounded(0.0, cells(HEIGHT), (Side::Wall, Side::Open))])
 }
 
 /// Particles row by row from the floor up, in columns from the back wall.

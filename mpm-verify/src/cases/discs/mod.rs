@@ -5,7 +5,6 @@
 mod flight;
 mod run;
 
-use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use flight::{CENTRES, RADIUS};
 use run::{AT_SPEED, IN_CONTACT};
@@ -36,11 +35,7 @@ choices! {
 
 impl StepFactor {
     fn value(self) -> f64 {
-        match self {
-            Self::One => 1.0,
-            Self::Ten => 10.0,
-            Self::Hundred => 100.0,
-        }
+        [1.0, 10.0, 100.0][self as usize]
     }
 }
 

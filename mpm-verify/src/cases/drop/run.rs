@@ -110,11 +110,7 @@ impl Problem<2> for Falling {
         let waves = law.wave_speed(DENSITY);
         let fall = setup.speed * waves;
         let velocity = [setup.slant * fall, -fall];
-        let factor = match setup.step_factor {
-            StepFactor::One => 1.0,
-            StepFactor::Ten => 10.0,
-            StepFactor::Thirty => 30.0,
-        };
+        let factor = [1.0, 10.0, 30.0][setup.step_factor as usize];
         let longest = factor * courant_time_step(setup.cfl, setup.h, waves);
         let duration = 2.0 * CLEAR / fall + CROSSINGS * 2.0 * SIDE / waves;
         let steps = (duration / longest).ceil();

@@ -5,7 +5,6 @@
 mod run;
 mod scene;
 
-use super::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
@@ -144,7 +143,7 @@ pub(super) fn case() -> Case {
         .note([2.85, 0.2], "taken away"))
         .cost(cost)
         .pictures(pictures)
-        .tables(vec![equilibria(), collapses(), balances()])
+        .tables(tables())
 }
 
 /// Cost of the steps and of a factorisation.
@@ -296,35 +295,29 @@ fn stands(r: &Record) -> String {
     }
 }
 
-/// Which slope has an equilibrium.
-fn equilibria() -> ResultTable {
-    let of = |level: &'static str| move |r: &Record| r.level == level;
+fn tables() -> Vec<ResultTable> {
     let columns = [("h0.1", "h = 0.1 m"), ("h0.05", "0.05 m"), ("h0.025", "0.025 m")]
-        .map(|(level, title)| Column::text(title, stands).of(of(level)));
-    ResultTable::new("excavation-equilibria", is_static, &[SCHEME, CHANGED], columns)
-}
-
-/// Collapses after the excavation.
-fn collapses() -> ResultTable {
-    ResultTable::of("excavation-collapses", |r| !is_static(r))
-        .by(&[SCHEME, CHANGED, CELLS])
-        .text("stands", stands)
-        .metric("run-out (m)", RUNOUT_END, fixed(3))
-        .metric("crest sinks (m)", CREST_DROP, fixed(3))
-        .metric("band (m)", BAND_WIDTH, fixed(3))
-        .metric("E_kin at the end", KINETIC_END, share(2))
-        .cpu()
-}
-
-/// Errors of what is conserved.
-fn balances() -> ResultTable {
-    ResultTable::of("excavation-balances", |r| !is_static(r) && r.level == "h0.05")
-        .by(&[SCHEME, CHANGED])
-        .metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT)
-        .metric("reaction off by", REACTION_ERROR, SHORT)
-        .metric("energy off by", BALANCE_ERROR, SHORT)
-        .metric("gained", ENERGY_GAIN, SHORT)
-        .metric("momentum off by", MOMENTUM_ERROR, SHORT)
+        .map(|(level, title)| Column::text(title, stands).of(move |r| r.level == level));
+    vec![
+        // Which slope has an equilibrium.
+        ResultTable::new("excavation-equilibria", is_static, &[SCHEME, CHANGED], columns),
+        ResultTable::of("excavation-collapses", |r| !is_static(r))
+            .by(&[SCHEME, CHANGED, CELLS])
+            .text("stands", stands)
+            .metric("run-out (m)", RUNOUT_END, fixed(3))
+            .metric("crest sinks (m)", CREST_DROP, fixed(3))
+            .metric("band (m)", BAND_WIDTH, fixed(3))
+            .metric("E_kin at the end", KINETIC_END, share(2))
+            .cpu(),
+        // Errors of what is conserved.
+        ResultTable::of("excavation-balances", |r| !is_static(r) && r.level == "h0.05")
+            .by(&[SCHEME, CHANGED])
+            .metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT)
+            .metric("reaction off by", REACTION_ERROR, SHORT)
+            .metric("energy off by", BALANCE_ERROR, SHORT)
+            .metric("gained", ENERGY_GAIN, SHORT)
+            .metric("momentum off by", MOMENTUM_ERROR, SHORT),
+    ]
 }
 
 /// Plastic strain of the finest run of the midpoint rule with the default parameters, beside Figure 9 of the paper.

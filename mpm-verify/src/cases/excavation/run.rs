@@ -2,7 +2,6 @@
 
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
-use crate::cases::observe::{farthest, finds_equilibrium, places};
 use mpm_core::Reaction;
 use mpm_core::monitor::Convergence;
 
@@ -91,11 +90,6 @@ fn stresses(run: &dyn Simulation<2>) -> Vec<[f64; 4]> {
     })
 }
 
-/// Largest difference (Pa) of the stresses that both lists have.
-fn difference(before: &[[f64; 4]], after: &[[f64; 4]]) -> f64 {
-    before.iter().flatten().zip(after.iter().flatten()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
-
 fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
@@ -174,7 +168,9 @@ impl Ground {
         }
         let before = stresses(phase.run.as_ref());
         phase.enter(self.begin(seen)?, Some(&body))?;
-        let change = difference(&before, &stresses(phase.run.as_ref()));
+        // Those of particles that are taken away come last.
+        let pairs = before.as_flattened().iter().zip(stresses(phase.run.as_ref()).into_flattened());
+        let change = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         let scale = self.setup.unit_weight * HEIGHT;
         seen.handed_over = Some(seen.handed_over.unwrap_or(0.0).max(change / scale));
         seen.motion = Motion::default();
@@ -185,15 +181,6 @@ impl Ground {
     fn note_start(&self, seen: &mut Seen, phase: &mut Phase<2>) {
         seen.energies = self.energies(phase.run.as_mut());
         seen.start = places(phase.run.as_ref());
-    }
-
-    /// Steps through a row; false where there is no equilibrium: the ground is then as it was before the row.
-    fn goes_on(&self, seen: &Seen, phase: &mut Phase<2>) -> Result<bool, Fault> {
-        if seen.stage.moves() {
-            phase.steps(self.steps_in_row)?;
-            return Ok(true);
-        }
-        finds_equilibrium(phase.steps(1))
     }
 
     /// Observations of the whole slope at rest.
@@ -255,7 +242,11 @@ impl Problem<2> for Ground {
             self.note_start(seen, phase);
         }
         let before = phase.run.work().newton_iterations;
-        let found = self.goes_on(seen, phase)?;
+        // Without an equilibrium the ground is as it was before the row.
+        let found = match seen.stage.moves() {
+            true => phase.steps(self.steps_in_row).map(|()| true)?,
+            false => finds_equilibrium(phase.steps(1))?,
+        };
         let iterations = phase.run.work().newton_iterations - before;
         seen.rows += 1;
         seen.all += 1;

@@ -3,7 +3,7 @@
 use super::*;
 use crate::exact::slope::Slope;
 use mpm_core::implicit::{Settings, TimeRule};
-use mpm_core::material::{HypoelasticJ2, JaumannUpdate};
+use mpm_core::material::HypoelasticJ2;
 use mpm_solvers::implicit;
 use std::f64::consts::FRAC_PI_4;
 

@@ -2,8 +2,6 @@
 
 use super::reference::{limit_curve, limit_uncertainty};
 use super::*;
-use crate::cases::pictures::{Exhibit, Fields, basis_title, remedy_title, spacing};
-use crate::draw::signed;
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Finest first.

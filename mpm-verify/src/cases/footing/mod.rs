@@ -248,53 +248,58 @@ fn from_exact(r: &Record) -> f64 {
     own(r) / EXACT - 1.0
 }
 
-/// rms ln(J/J̄) of a remedy that makes J̄.
-fn gap(r: &Record) -> f64 {
-    match r.remedy() {
-        RemedyName::None => f64::NAN,
-        _ => r.metric(LOG_JACOBIAN_GAP),
-    }
-}
-
 fn tables() -> Vec<ResultTable> {
     let is_main = |r: &Record| r.basis() != Bspline3 && is_flip(r) && r.is_default() && r.level == "b20";
-    vec![
-        ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
-        table_of_results(),
-        table_of_mean_stresses(),
-        table_of_rates(),
-        table_of_slopes(),
-        transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| percent(2).text(from_exact(r))),
-        table_of_orders(),
-    ]
-}
-
-fn table_of_results() -> ResultTable {
-    ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
-        .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
-        .metric("N_c by B", NC_B, fixed(3))
-        .metric("by B + h", NC_B_PLUS_H, fixed(3))
-        .value("by its own width", own, fixed(3))
-        .value("from 2 + π", from_exact, percent(1))
-        .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
-        .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
-        .metric("heave", HEAVE, fixed(2))
-        .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
-        .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
-        .cpu()
-}
-
-fn table_of_mean_stresses() -> ResultTable {
-    let column = |(metric, point): (_, [f64; 2])| {
+    let found = |r: &Record| {
+        // From q/s_u of a strength beyond reach to that of the reference.
+        let scale = Setup::<Footing>::number_of(r, |c| c.strength_ratio() / strength_ratio());
+        scale * r.metric(ELASTIC_SLOPE)
+    };
+    let expected = |r: &Record| {
+        let slope = |c: &Setup<Footing>| c.reference_slope().map_or(f64::NAN, |s| s / strength_ratio());
+        Setup::number_of(r, slope)
+    };
+    let gap = |r: &Record| if r.remedy() == RemedyName::None { f64::NAN } else { r.metric(LOG_JACOBIAN_GAP) };
+    let mean_stress = |(metric, point): (_, [f64; 2])| {
         let elements = mean_stress_at(point).map_or(String::new(), |s| {
             let value = fixed(2).text(s.value);
             format!("; elements: {value} ± {:.2}", s.uncertainty)
         });
         Column::metric(format!("({}, {}) B{elements}", point[0], -point[1]), metric, fixed(2))
     };
-    ResultTable::of("footing-mean-stress", |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level))
-        .by(&[PAIR, OF_WIDTH])
-        .columns(MEAN_STRESSES.iter().copied().map(column))
+    vec![
+        ResultTable::by_remedy("footing", &COMPARED, is_main, |r| fixed(3).text(own(r))),
+        ResultTable::of("footing-results", |r| r.set != [ELASTIC] && !r.changes_only("penetration_rate"))
+            .by(&[SCHEME, OF_WIDTH, ("changed", changed)])
+            .metric("N_c by B", NC_B, fixed(3))
+            .metric("by B + h", NC_B_PLUS_H, fixed(3))
+            .value("by its own width", own, fixed(3))
+            .value("from 2 + π", from_exact, percent(1))
+            .metric("rise per 10⁻³", PLATEAU_RISE, percent(1))
+            .metric("mechanism (B)", MECHANISM_WIDTH, fixed(2))
+            .metric("heave", HEAVE, fixed(2))
+            .metric("checkerboard", CHECKERBOARD_RATIO, fixed(2))
+            .value("ln(J/J̄) rms (10⁻⁴)", gap, fixed(1).times(1e4))
+            .cpu(),
+        ResultTable::of("footing-mean-stress", |r| is_flip(r) && r.is_default() && ["b20", "b40"].contains(&&*r.level))
+            .by(&[PAIR, OF_WIDTH])
+            .columns(MEAN_STRESSES.iter().copied().map(mean_stress)),
+        table_of_rates(),
+        ResultTable::of("footing-slopes", |r| r.set == [ELASTIC])
+            .by(&[SCHEME, OF_WIDTH])
+            .value("slope d(q/s_u)/d(s/B)", found, fixed(0))
+            .value("finite elements that act as wide", expected, fixed(0))
+            .value("difference", move |r| found(r) / expected(r) - 1.0, percent(1)),
+        transfers("footing-transfers", &[PAIR, OF_WIDTH], &["4"], |r| percent(2).text(from_exact(r))),
+        ResultTable::of("footing-orders", |r| {
+            let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
+            main && is_flip(r) && r.is_default()
+        })
+        .by(&[SCHEME])
+        .columns(Column::levels([("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")], PRANDTL_ERROR, percent(1)))
+        // Errors on splines with F̄ are too small to fall with an order.
+        .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)")),
+    ]
 }
 
 /// Half and twice the case's own rate beside it.
@@ -312,33 +317,4 @@ fn table_of_rates() -> ResultTable {
     .by(&[("scheme, B/10", SCHEME.1)])
     .columns(Column::over(loads, rate, NC_B, fixed(3)))
     .columns(Column::over(imbalances, rate, FORCE_IMBALANCE, percent(1)))
-}
-
-fn table_of_slopes() -> ResultTable {
-    /// From q/s_u of a strength beyond reach to that of the reference.
-    fn scale(r: &Record) -> f64 {
-        Setup::<Footing>::number_of(r, |c| c.strength_ratio() / strength_ratio())
-    }
-    let found = |r: &Record| scale(r) * r.metric(ELASTIC_SLOPE);
-    let expected = |r: &Record| {
-        let slope = |c: &Setup<Footing>| c.reference_slope().map_or(f64::NAN, |s| s / strength_ratio());
-        Setup::number_of(r, slope)
-    };
-    ResultTable::of("footing-slopes", |r| r.set == [ELASTIC])
-        .by(&[SCHEME, OF_WIDTH])
-        .value("slope d(q/s_u)/d(s/B)", found, fixed(0))
-        .value("finite elements that act as wide", expected, fixed(0))
-        .value("difference", move |r| found(r) / expected(r) - 1.0, percent(1))
-}
-
-fn table_of_orders() -> ResultTable {
-    let levels = [("b10", "B/10"), ("b20", "B/20"), ("b40", "B/40")];
-    ResultTable::of("footing-orders", |r| {
-        let main = r.basis() != Bspline3 && REMEDIES[1..].contains(&r.remedy());
-        main && is_flip(r) && r.is_default()
-    })
-    .by(&[SCHEME])
-    .columns(Column::levels(levels, PRANDTL_ERROR, percent(1)))
-    // Errors on splines with F̄ are too small to fall with an order.
-    .column(Column::order_of(PRANDTL_ERROR, |r| r.basis() == Gimp).titled("order (between levels)"))
 }

@@ -1,7 +1,6 @@
 //! The references: Prandtl's limit load and an independent finite-element solution.
 
 use super::*;
-use std::sync::LazyLock;
 
 const SOLUTIONS: &str = include_str!("../../../references/footing.json");
 

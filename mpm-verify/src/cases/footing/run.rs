@@ -2,10 +2,10 @@
 
 use super::curve::{Load, LoadCurve, Surface, WINDOW, bearing_factor, plateau};
 use super::*;
-use crate::cases::observe::{mean_stress, places};
-use crate::statistics::{checkerboard, oscillation};
+use crate::cases::observe::mean_stress;
+use crate::statistics::oscillation;
 use mpm_core::implicit::GHOST;
-use mpm_core::stage::{RigidNodes, smooth_stroke};
+use mpm_core::stage::smooth_stroke;
 
 /// Width B of the footing (m); its right half is simulated.
 pub(super) const WIDTH: f64 = 1.0;
@@ -166,16 +166,6 @@ pub(super) struct Pressing {
 }
 
 impl Pressing {
-    /// The footing as held nodes: those on and above the surface, and those of the splines with nodes in the middle of
-    /// cells that lie half a cell below, without which the surface would not be rigid.
-    fn held_nodes(&self) -> RigidNodes<2> {
-        RigidNodes {
-            extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * self.setup.h, f64::INFINITY]],
-            velocity: [self.setup.rough.then_some(0.0), Some(-self.pace.rate)],
-            ramp: self.pace.ramp,
-        }
-    }
-
     /// The footing as a barrier on the particles that come near it.
     fn contact(&self, barrier: Barrier, particles: &Particles<2>) -> Result<RigidContact<2>, Fault> {
         let reach = REACH * self.setup.h;
@@ -195,11 +185,6 @@ impl Pressing {
         self.barrier
             .as_ref()
             .map_or(0.0, |(barrier, particles)| (barrier.distance() - barrier.gap(force.max(0.0) / particles)) / WIDTH)
-    }
-
-    /// Force of the ground on the footing in the last step, upward (N/m).
-    fn force_on_footing(&self, run: &dyn Simulation<2>) -> f64 {
-        run.on(if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) }).force[1]
     }
 }
 
@@ -240,7 +225,13 @@ impl Problem<2> for Pressing {
             roller(0, End::Hi),
         ]);
         let scene = match self.barrier {
-            None => ground.constrain(self.held_nodes()),
+            // Held nodes are those on and above the surface, and those of the splines with nodes in the middle of cells
+            // that lie half a cell below, without which the surface would not be rigid.
+            None => ground.constrain(RigidNodes {
+                extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * setup.h, f64::INFINITY]],
+                velocity: [setup.rough.then_some(0.0), Some(-self.pace.rate)],
+                ramp: self.pace.ramp,
+            }),
             Some((barrier, _)) => {
                 let contact = self.contact(barrier, &ground.bodies.particles)?;
                 ground.contact(contact)
@@ -253,13 +244,14 @@ impl Problem<2> for Pressing {
     }
 
     fn row(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
+        let footing = if self.barrier.is_none() { Part::Constraint(FOOTING) } else { Part::Contact(0) };
         let (mut force, mut base, mut time) = (0.0, 0.0, 0.0);
         for _ in 0..self.pace.steps_per_row {
             let start = phase.run.time();
             phase.steps(1)?;
             // Forces are those at the start of an explicit step, at the end of an implicit one.
             time += if self.setup.is_implicit() { phase.run.time() } else { start };
-            force += self.force_on_footing(phase.run.as_ref());
+            force += phase.run.on(footing).force[1];
             base -= phase.run.on(Part::Constraint(BASE)).force[1];
         }
         let steps = self.pace.steps_per_row as f64;

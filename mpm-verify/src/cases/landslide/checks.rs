@@ -1,7 +1,6 @@
 //! Checks of the landslide. The tolerances are derived in `docs/landslide.md`.
 
 use super::*;
-use crate::cases::checks::changed;
 use crate::cases::slope::ground::{RISE, STABILITY};
 use crate::cases::slope::section::GRAVITY;
 

@@ -1,8 +1,8 @@
 //! Figures of the landslide: the paper's Figures 14 to 16, in plane strain and in three dimensions.
 
 use super::*;
-use crate::cases::pictures::{Exhibit, basis_title, frames, remedy_title, spacing};
-use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids, signed};
+use crate::cases::pictures::frames;
+use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids};
 
 const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies without which there is nothing to compare.

@@ -12,7 +12,6 @@ mod tables;
 
 use super::slope::{self, REMEDIES};
 use crate::cases::prelude::*;
-use crate::problem;
 use plane_strain::Beside;
 use run::Slide;
 

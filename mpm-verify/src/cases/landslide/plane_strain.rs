@@ -5,7 +5,6 @@ use crate::job::{Column, Pulse};
 use crate::problem::{Driver, measured};
 use crate::record::Measured;
 use mpm_core::memory::{Memory, MemoryError, Saved};
-use std::sync::Arc;
 
 /// Columns of a slide's series that are shown of the section beside it.
 const TOE: usize = 1;

@@ -4,7 +4,6 @@ use super::look::{Look, Series, State, spread_over_width};
 use super::*;
 use crate::cases::slope::ground::{BASE, Ground, RISE, ROW, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
-use crate::statistics::checkerboard;
 
 /// Width (m) in full, and cells across a slice.
 const FULL: f64 = 5.0;

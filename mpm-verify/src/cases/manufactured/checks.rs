@@ -12,7 +12,6 @@ pub(in crate::cases) use locking::{LOCKING_CURVE, locking};
 pub(in crate::cases) use time::{order_in_time, slowed};
 
 use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRESS_L2};
-use crate::cases::checks::{finest, ladders_by, observed_order};
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};

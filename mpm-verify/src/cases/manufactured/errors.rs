@@ -2,7 +2,6 @@
 
 use super::vector;
 use crate::cases::prelude::*;
-use nalgebra::{Matrix3, Vector3};
 
 /// Displacement of a particle minus the exact one (m); across a periodic end the nearest image counts.
 pub(in crate::cases) fn of_displacement<const D: usize>(

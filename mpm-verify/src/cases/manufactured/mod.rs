@@ -19,7 +19,6 @@ pub(super) use super::parameters::{
 use crate::cases::prelude::*;
 use crate::exact;
 pub(super) use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
-use crate::problem;
 pub(super) use checks::*;
 pub(super) use metrics::*;
 pub(super) use motion::Motion;

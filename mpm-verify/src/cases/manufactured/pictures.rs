@@ -1,7 +1,6 @@
 //! The picture of motions that lock.
 
 use super::{COMPARED, SMOOTH};
-use crate::cases::pictures::{Fields, field_panel};
 use crate::cases::prelude::*;
 
 /// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.

@@ -5,9 +5,6 @@ use crate::cases::parameters::{CFL, FLIP, PPC_PER_DIRECTION, STEP_SCALING, YOUNG
 use crate::cases::prelude::*;
 use crate::exact::common::ANGULAR_FREQUENCY;
 use mpm_core::explicit::Remedy;
-use mpm_core::stage::BodyForce;
-use nalgebra::Vector3;
-use std::sync::Arc;
 
 /// Cells per side at which Δt ∝ h and Δt ∝ h² coincide.
 const COARSEST: f64 = 8.0;

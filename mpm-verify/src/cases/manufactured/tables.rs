@@ -3,7 +3,6 @@
 use super::CFL;
 use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
 use crate::cases::prelude::*;
-use crate::results::Format;
 
 /// Title of a column, level of its run, and changed parameters, apart by spaces.
 type At = (&'static str, &'static str, &'static str);

@@ -1,7 +1,6 @@
 //! The checks of the motion. The bounds are derived in `docs/mms-poro.md`.
 
 use super::*;
-use crate::cases::checks::{finest, ladders_over, observed_order};
 use crate::cases::manufactured::checks::ladders;
 
 /// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/remedy.md.

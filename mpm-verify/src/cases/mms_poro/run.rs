@@ -4,7 +4,6 @@ use super::*;
 use crate::cases::poro::matrix_entries;
 use crate::exact::poro::{Moment, SolidAndWater};
 use mpm_core::poro::{Gravity, Predictor, Settings, Tangent};
-use mpm_core::stage::BodyForce;
 use std::array::from_fn;
 
 /// Densities of water and grains (kg/m³).

@@ -7,7 +7,6 @@ mod run;
 use super::manufactured::*;
 use crate::cases::prelude::*;
 use crate::exact::vortex_pressure::PRESSURE;
-use crate::results::Format;
 use run::SlowVortex;
 
 const LOAD_STEPS: Parameter = common::LOAD_STEPS.meaning("quasi-static: equal steps of time");

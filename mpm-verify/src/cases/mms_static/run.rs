@@ -3,7 +3,6 @@
 use super::*;
 use crate::exact::twist::ANGLE;
 use crate::exact::{self, swirl, vortex_pressure};
-use crate::problem;
 use mpm_core::implicit::Settings;
 
 parameters! { const:
@@ -64,12 +63,6 @@ impl<const D: usize> Slow<D> {
     /// Duration of a load step (s).
     fn dt(&self) -> f64 {
         self.0.number(DURATION) / self.0.number(LOAD_STEPS)
-    }
-
-    /// Rms over the particles of the exact displacement (m).
-    fn scale(&self, run: &dyn Simulation<D>) -> f64 {
-        let references = run.particles().reference.iter().map(vector);
-        rms(references.map(|x| self.0.solution.displacement(&x, run.time()).norm()))
     }
 }
 
@@ -134,8 +127,9 @@ impl<const D: usize> Problem<D> for Slow<D> {
         let [stress, mean_stress] = errors::of_stresses(solution, run);
         let displacement = errors::of_displacements(solution, run);
         let (totals, work) = (run.totals(), run.work());
+        let references = run.particles().reference.iter().map(vector);
         let mut values = vec![
-            (DISPLACEMENT_SCALE, self.scale(run)),
+            (DISPLACEMENT_SCALE, rms(references.map(|x| solution.displacement(&x, run.time()).norm()))),
             (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
             (MASS, totals.mass),
             (BODY_MASS, errors::mass::<D>(solution)),

@@ -5,7 +5,6 @@
 
 mod run;
 
-use super::checks::quadratic;
 use crate::cases::prelude::*;
 
 /// The tolerance of Newton's method, with a share for rounding.

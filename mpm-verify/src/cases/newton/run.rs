@@ -1,8 +1,6 @@
 //! Scene and observations of the column, step by step; the time is the share of the load.
 
 use super::*;
-use crate::cases::checks::newton_rate;
-use crate::cases::observe::finds_equilibrium;
 use crate::exact::uniaxial::{Body as Uniaxial, Column as Exact};
 use mpm_core::implicit;
 use std::f64::consts::E;

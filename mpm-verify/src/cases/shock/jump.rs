@@ -1,8 +1,6 @@
 //! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
 
-use crate::cases::build::stretched;
 use crate::cases::prelude::*;
-use crate::statistics::root;
 
 /// Slices of a front that are summed.
 const SLICES: usize = 1000;

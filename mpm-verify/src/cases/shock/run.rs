@@ -2,7 +2,6 @@
 
 use super::jump::Jump;
 use super::*;
-use mpm_core::material::Viscous;
 
 /// Length (m), Young's modulus (Pa) and density (kg/m³) of the bar.
 const LENGTH: f64 = 1.0;

@@ -3,7 +3,6 @@
 use super::section::{GRAVITY, Section};
 use super::*;
 use crate::cases::prelude::*;
-use mpm_core::stage::smooth_rise;
 
 /// Time (s) between two rows of the series.
 pub(in crate::cases) const ROW: f64 = 0.01;

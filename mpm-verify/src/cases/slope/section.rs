@@ -27,18 +27,14 @@ impl Section {
         [[0.0, 0.0], [self.toe(), 0.0], [self.crest, self.height], [0.0, self.height]]
     }
 
-    /// Whether a place lies inside of the face, not on it.
-    fn is_inside(&self, x: f64, y: f64) -> bool {
-        /// Share of the height that rounding may amount to.
-        const ROUNDING: f64 = 1e-9;
-        let face = self.toe() - self.run * y / self.height;
-        x < face - ROUNDING * self.height
-    }
-
     /// Centres (m) of the particles, `spacing` (m) apart: columns from x = 0, each from the base up.
     pub(in crate::cases) fn seed(&self, spacing: f64) -> Vec<[f64; 2]> {
         let counts = [self.toe(), self.height].map(|length| (length / spacing).round() as usize);
-        by_columns(counts, spacing).filter(|[x, y]| self.is_inside(*x, *y)).collect()
+        /// Share of the height that rounding may amount to.
+        const ROUNDING: f64 = 1e-9;
+        // Not on the face.
+        let is_inside = |[x, y]: &[f64; 2]| *x < self.toe() - self.run * y / self.height - ROUNDING * self.height;
+        by_columns(counts, spacing).filter(is_inside).collect()
     }
 }
 

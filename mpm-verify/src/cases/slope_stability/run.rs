@@ -1,10 +1,8 @@
 //! Trials of a slope with reduced strength.
 
 use super::*;
-use crate::cases::observe::{farthest, finds_equilibrium, places};
 use crate::cases::slope::ground::{Ground, RISE, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
-use mpm_core::Saved;
 
 /// A slope that moves by this share of its height in a trial fails.
 const FAILS: f64 = 0.02;
@@ -127,14 +125,6 @@ impl Trials {
         (time / self.ground.dt).round() as u64
     }
 
-    /// Continues to the next look; false if there is no equilibrium.
-    fn goes_on(&self, phase: &mut Phase<2>) -> Result<bool, Fault> {
-        match self.setup.is_implicit() {
-            true => finds_equilibrium(phase.steps(1)),
-            false => phase.steps(self.steps(LOOK)).map(|()| true),
-        }
-    }
-
     /// A trial of ground that was at `rest` (m), with the strength of the current simulation.
     fn try_factor(&self, factor: f64, rest: &[[f64; 2]], phase: &mut Phase<2>) -> Result<Trial, Fault> {
         let height = self.setup.height;
@@ -147,7 +137,10 @@ impl Trials {
             }
         }
         for _ in 0..looks {
-            let found = self.goes_on(phase)?;
+            let found = match self.setup.is_implicit() {
+                true => finds_equilibrium(phase.steps(1))?,
+                false => phase.steps(self.steps(LOOK)).map(|()| true)?,
+            };
             time += self.setup.look();
             let before = moved;
             moved = farthest(rest, &places(phase.run.as_ref()));

@@ -1,7 +1,6 @@
 //! Checks of the clouds. The bounds are derived in `docs/sparse.md`.
 
 use super::*;
-use crate::cases::checks::{at_least, orders_from};
 use crate::cases::manufactured::checks::VORTEX;
 
 /// Formal order of functions that reproduce linear fields.

@@ -5,7 +5,6 @@
 mod checks;
 mod run;
 
-use super::analysis::case_of;
 use crate::cases::prelude::*;
 
 choices! {

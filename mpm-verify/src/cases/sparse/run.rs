@@ -1,14 +1,9 @@
 //! Scene and errors of the clouds: a row for each cloud.
 
 use super::*;
-use crate::cases::analysis::Analysis;
 use crate::cases::manufactured::{errors, forcing, vector};
 use crate::cases::noise::noise;
-use crate::cases::observe::finds_equilibrium;
 use crate::exact::vortex_box::ENTRY;
-use mpm_core::explicit::Settings;
-use mpm_core::implicit;
-use std::sync::Arc;
 
 /// Largest angle of the vortex (rad): so small that particles stay where they are.
 const ANGLE: f64 = 0.01;
@@ -183,13 +178,7 @@ impl Clouds {
         let scene = Scene::new(grid, Bodies::new(self.law, self.particles_of(k)?)?)
             .load(forcing(&self.solution))
             .constrain_all(ends.map(|(axis, end)| roller(axis, end)));
-        match self.setup.scheme {
-            Scheme::Explicit(_) => {
-                let settings = Settings::new(self.dt).remedy(self.setup.scheme.remedy().build());
-                mpm_solvers::solver(self.setup.scheme, scene, settings)
-            }
-            _ => mpm_solvers::implicit(self.setup.scheme, scene, implicit::Settings::new(self.dt)),
-        }
+        self.setup.moving(scene, self.dt, 0.0)
     }
 
     /// Relative errors of displacement and stress, and the displacement along the exact one.

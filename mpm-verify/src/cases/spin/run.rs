@@ -1,7 +1,7 @@
 //! Scene and observations of the disc, twenty times a turn.
 
 use super::*;
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 
 /// Radius (m), density (kg/m³), Young's modulus (Pa).
 pub(super) const RADIUS: f64 = 1.0;

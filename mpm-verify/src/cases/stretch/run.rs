@@ -1,13 +1,9 @@
 //! Scene, observations and predictions of the body.
 
 use super::*;
-use crate::cases::build::lattice;
-use crate::cases::observe::finds_equilibrium;
 use crate::exact::stretched_lattice::Lattice;
-use mpm_core::explicit::Settings;
 use mpm_core::stage::Constraint;
-use mpm_core::{Frame, Memoryless, implicit};
-use nalgebra::Matrix3;
+use mpm_core::{Frame, Memoryless};
 
 /// Cells of the body beside the free part, always.
 const HELD: usize = 2;
@@ -211,14 +207,7 @@ impl<const D: usize> Problem<D> for Stretching {
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
         let held = Held { middle: [0.0; D], beyond: FREE as f64 * h, rate: self.rate };
         let scene = Scene::new(grid, Bodies::new(self.law, particles)?).constrain(held);
-        match self.setup.scheme {
-            Scheme::Explicit(e) => {
-                mpm_solvers::solver(self.setup.scheme, scene, Settings::new(self.dt).remedy(e.remedy.build()))
-            }
-            Scheme::Implicit(_) | Scheme::Poro(_) => {
-                mpm_solvers::implicit(self.setup.scheme, scene, implicit::Settings::new(self.dt))
-            }
-        }
+        self.setup.moving(scene, self.dt, 0.0)
     }
 
     fn row(&self, seen: &mut Observed, phase: &mut Phase<D>) -> Result<Row, Fault> {

@@ -1,7 +1,7 @@
 //! The checks of the strip. Tolerances are derived in `docs/strip.md`.
 
 use super::*;
-use crate::cases::checks::{DECIDING, SAFE, at_least, finest, index, ladders_by, observed_order, orders_in_time};
+use crate::cases::checks::SAFE;
 
 /// Largest contribution of finite strain, over q/G.
 const FINITE: f64 = 10.0;

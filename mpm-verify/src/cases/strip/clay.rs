@@ -1,7 +1,6 @@
 //! The clay by itself: the limit load of undrained clay without weight, and clay in uniaxial strain that water leaves freely.
 
 use super::*;
-use crate::statistics::root;
 
 /// Logarithmic strain of a step of Runge and Kutta's rule: its errors are far below those of a run.
 const STEP: f64 = 1e-5;

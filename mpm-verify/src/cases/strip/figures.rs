@@ -1,7 +1,6 @@
 //! The figures of the strip, beside Figures 10 and 11 of the paper.
 
 use super::*;
-use crate::cases::pictures::{Fields, field_panel};
 
 /// Shares of the load at which particles are drawn.
 const SHARES: [f64; 2] = [0.25, 0.5];

@@ -11,7 +11,6 @@ mod run;
 
 use super::poro::{ROUNDING, spaces};
 use crate::cases::prelude::*;
-use crate::results::Format;
 use run::SIDE;
 
 const LEVELS: [(&str, f64); 3] = [("b2", 2.0), ("b4", 4.0), ("b8", 8.0)];
@@ -137,13 +136,10 @@ pub(super) fn case() -> Case {
         })
         .pictures(figures::draw)
         .tables(tables())
-        .breaks_down(breaks_down)
-}
-
-/// Reason why a run of this kind is known to break down: without a ghost penalty on displacements small cuts have no stiffness.
-fn breaks_down(r: &Record) -> Option<&'static str> {
-    let none = holds(r, |s| s.ghost_displacement == 0.0);
-    none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
+        .breaks_down(|r| {
+            let none = holds(r, |s| s.ghost_displacement == 0.0);
+            none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
+        })
 }
 
 fn plan() -> Plan {

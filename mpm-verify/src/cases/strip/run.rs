@@ -5,7 +5,6 @@ use crate::cases::poro::{above_rounding, kept, matrix_entries, outflow, volumes}
 use mpm_core::Error::{NoConvergence, Singular};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
-use mpm_core::stage::RigidNodes;
 use std::array::from_fn;
 
 /// Side of the soil (m).

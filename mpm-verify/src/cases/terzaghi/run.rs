@@ -3,7 +3,6 @@
 use super::*;
 use crate::cases::poro::*;
 use crate::exact::terzaghi::FirstStep;
-use crate::statistics::growth;
 use mpm_core::poro::{Face, Settings};
 
 /// Largest q/M: the finite part of the strain changes a distance by ten times as much.
@@ -96,15 +95,10 @@ impl Setup<Terzaghi> {
     }
 }
 
-/// Observations of the column: the overshoot of the first step.
-#[derive(Default, Serialize, Deserialize)]
-pub(super) struct Seen {
-    overshoot_first_step: f64,
-}
-
 impl Problem<1> for Setup<Terzaghi> {
     type Parameters = Terzaghi;
-    type Seen = Seen;
+    /// The overshoot of the first step.
+    type Seen = f64;
 
     fn new(setup: Self) -> Result<Self, Error> {
         let why = "below which rounding hides the answer and above which the strain is not small";
@@ -124,7 +118,7 @@ impl Problem<1> for Setup<Terzaghi> {
         self.discretisation(1, PER_CELL, self.first_and_growth().0 * self.time_scale())
     }
 
-    fn begin(&self, _: &Seen) -> Begun<1> {
+    fn begin(&self, _: &f64) -> Begun<1> {
         let scene = column(self, Hencky::new(self.young_modulus, self.poisson_ratio)?)?;
         let (load, h) = (self.load, self.h);
         let top = Face::loaded(&scene.bodies.particles, topmost(h), (0, End::Hi), move |_| [-load]);
@@ -141,11 +135,11 @@ impl Problem<1> for Setup<Terzaghi> {
         mpm_solvers::poro(self.scheme, scene, water, settings)
     }
 
-    fn row(&self, seen: &mut Seen, phase: &mut Phase<1>) -> Result<Row, Fault> {
+    fn row(&self, overshoot_first_step: &mut f64, phase: &mut Phase<1>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
         if run.work().steps == 1 {
-            seen.overshoot_first_step = self.overshoot(run);
+            *overshoot_first_step = self.overshoot(run);
         }
         let t = run.time() / self.time_scale();
         Ok(row! {
@@ -161,15 +155,15 @@ impl Problem<1> for Setup<Terzaghi> {
         })
     }
 
-    fn progress(&self, _: &Seen, phase: &Phase<1>) -> f64 {
+    fn progress(&self, _: &f64, phase: &Phase<1>) -> f64 {
         phase.share_of(self.steps as u64)
     }
 
-    fn particles<'a>(&self, _: &Seen, columns: Columns<'a, 1>) -> Columns<'a, 1> {
+    fn particles<'a>(&self, _: &f64, columns: Columns<'a, 1>) -> Columns<'a, 1> {
         kept(columns).jacobian()
     }
 
-    fn metrics(&self, seen: &Seen, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
+    fn metrics(&self, overshoot_first_step: &f64, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {
         let (steps, t) = (self.durations(), phase.run.time() / self.time_scale());
         let pressure = phase.run.field(Field::PorePressure);
         let run = phase.run.as_ref();
@@ -180,7 +174,7 @@ impl Problem<1> for Setup<Terzaghi> {
         vec![
             (PRESSURE_L2, error(&|z| exact::pressure(z, t))),
             (PRESSURE_L2_STEPS, error(&|z| exact::pressure_of_steps(z, &steps))),
-            (OVERSHOOT_FIRST_STEP, seen.overshoot_first_step),
+            (OVERSHOOT_FIRST_STEP, *overshoot_first_step),
             (SETTLEMENT_ERROR, (self.settlement(run) - exact::settlement(t)).abs()),
             (MASS_ERROR, mass_error(run)),
             (NEWTON_ITERATIONS, run.work().newton_iterations as f64),

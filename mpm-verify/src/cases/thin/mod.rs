@@ -4,7 +4,6 @@
 
 mod run;
 
-use super::checks::{at_least, orders_from};
 use crate::cases::prelude::*;
 use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
 

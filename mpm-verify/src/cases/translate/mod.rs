@@ -68,7 +68,14 @@ pub(super) fn case() -> Case {
             .note([0.5, 0.38], "0.05 c")
             .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"))
         .cost(|_| 0.2)
-        .table(table())
+        .table(ResultTable::of("translate", Record::is_default)
+            .by(&[SCHEME])
+            .metric("noise of the stress, most", STRESS_NOISE, share(3))
+            .metric("mean", STRESS_NOISE_MEAN, share(3))
+            .metric("predicted", PREDICTED_NOISE, share(3))
+            .metric("mean stress kept", STRESS_KEPT, share(1))
+            .metric("noise of the velocity", VELOCITY_NOISE, share(3))
+            .metric("energy gain", ENERGY_GAIN, SHORT))
 }
 
 fn plan() -> Plan {
@@ -138,15 +145,4 @@ fn checks() -> Vec<Check> {
             .above(ENERGY_GAIN, |_| 0.1)
             .because("the stress' work is that of velocities mapped again, not that of the nodes' forces"),
     ]
-}
-
-fn table() -> ResultTable {
-    ResultTable::of("translate", Record::is_default)
-        .by(&[SCHEME])
-        .metric("noise of the stress, most", STRESS_NOISE, share(3))
-        .metric("mean", STRESS_NOISE_MEAN, share(3))
-        .metric("predicted", PREDICTED_NOISE, share(3))
-        .metric("mean stress kept", STRESS_KEPT, share(1))
-        .metric("noise of the velocity", VELOCITY_NOISE, share(3))
-        .metric("energy gain", ENERGY_GAIN, SHORT)
 }

@@ -1,9 +1,7 @@
 //! Scene and observations of the body, twice in a cell.
 
 use super::*;
-use crate::cases::build::{lattice, middles};
 use crate::exact::lattice::{force, symbol, transform};
-use nalgebra::{Matrix2, Matrix3};
 
 /// Cells of a period along the motion and across it.
 pub(super) const PERIOD: usize = 8;

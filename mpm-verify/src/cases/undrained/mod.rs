@@ -4,8 +4,7 @@
 
 mod run;
 
-use super::analysis::case_of;
-use super::checks::{self, finest, ladders_by, observed_order};
+use super::checks;
 use crate::cases::prelude::*;
 
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];

@@ -1,12 +1,10 @@
 //! The pairs of spaces of displacement and pressure, their matrices, and the motion of a body that keeps its volume.
 
 use super::*;
-use crate::cases::analysis::{Analysis, visited};
 use crate::cases::forms::{self, Cloud, Hats, Means, coarse, eigenvalues, singular};
 use mpm_core::Lattice;
 use mpm_core::basis::QuadraticBSpline;
 use mpm_core::implicit::{Interpolation, OfHats};
-use nalgebra::{DMatrix, DVector};
 
 type Splines = Lattice<2, 3, QuadraticBSpline>;
 

@@ -4,9 +4,7 @@ mod markdown;
 mod page;
 pub(super) mod terminal;
 
-use super::words;
 use crate::report::prelude::*;
-use serde::Serialize;
 
 /// A part of a text: its kind, words, and target of a link or class of a mark.
 #[derive(Debug, Clone, PartialEq, Serialize)]

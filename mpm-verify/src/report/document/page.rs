@@ -5,7 +5,6 @@ use crate::report::prelude::*;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
-use serde::Serialize;
 
 /// Variables of a page's template.
 #[derive(Serialize)]

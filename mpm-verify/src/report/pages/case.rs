@@ -9,7 +9,7 @@ use crate::report::faults::{self, Seen};
 use crate::report::prelude::*;
 use crate::report::price::Prices;
 use crate::report::verdicts::{self, tightest};
-use crate::report::words::{OUTCOMES, kind, made_by, number};
+use crate::report::words::{OUTCOMES, made_by};
 use crate::spec::Level;
 
 pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, Seen>, out: &Path) -> Document {

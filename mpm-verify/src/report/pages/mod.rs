@@ -7,7 +7,6 @@ mod index;
 use super::document::{Shown, Text};
 use super::faults as seeded;
 use super::speed::Speed;
-use super::words;
 use crate::report::prelude::*;
 use std::env;
 

@@ -2,7 +2,6 @@
 
 use super::{Gate, STALLED};
 use crate::accuracy::richardson;
-use crate::cases::checks::ladders_over;
 use crate::cases::manufactured::metrics::DISPLACEMENT_RATIO;
 use crate::cases::parameters::{CFL, LUMPED};
 use crate::cases::prelude::*;
