@@ -9,26 +9,18 @@ use serde::de::DeserializeOwned;
 
 /// An analysis of a discretisation in the plane.
 pub(super) trait Analysis: Sized + Send {
-    /// Its parameters.
     type Parameters: ParameterSet;
     /// Findings of a row. They go into checkpoints.
     type Found: Serialize + DeserializeOwned + Send;
 
-    /// The analysis of a setup.
     fn new(setup: Setup<Self::Parameters>) -> Result<Self, Error>;
-    /// The discretisation.
     fn discretisation(&self) -> Discretisation;
-    /// Number of rows.
     fn rows(&self) -> usize;
-    /// Analyses the `k`-th row.
     fn analyse(&self, k: usize) -> Result<Self::Found, Fault>;
-    /// The `k`-th row of the series.
     fn row(&self, k: usize, found: &Self::Found) -> Row;
     /// Positions (m) of the particles.
     fn places(&self) -> Vec<[f64; 2]>;
-    /// The metrics of all rows.
     fn metrics(&self, found: &[Self::Found]) -> Vec<(Metric, f64)>;
-    /// Work of all rows.
     fn work(&self, found: &[Self::Found]) -> WorkDone;
 }
 
@@ -49,13 +41,11 @@ pub(super) fn case_of<A: Analysis + 'static>(name: &'static str, title: &'static
     Case::begun_by(name, title, metrics, A::Parameters::list(), Box::new(begin::<A>))
 }
 
-/// Begins a run of the analysis `A`.
 pub(super) fn begin<A: Analysis + 'static>(spec: &RunSpec, parameters: &Parameters) -> Result<Box<dyn Job>, Error> {
     let analysis = A::new(Setup::of_spec(spec, parameters)?)?;
     Ok(Box::new(Run { analysis, found: Vec::new() }))
 }
 
-/// A run of an [`Analysis`].
 struct Run<A: Analysis> {
     analysis: A,
     found: Vec<A::Found>,

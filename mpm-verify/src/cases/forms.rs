@@ -22,7 +22,6 @@ pub(super) fn singular() -> Error {
     Error::Singular { time: 0.0, step: 0, iteration: 0, cause: Cause::Unknown }
 }
 
-/// Particles of one size.
 pub(super) struct Cloud {
     /// Their places (m).
     pub(super) places: Vec<[f64; 2]>,

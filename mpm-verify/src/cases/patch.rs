@@ -33,7 +33,6 @@ const VAGUE: f64 = 0.1;
 const VAGUELY: &str = "so small a strain, or so long a way, lets every error pass";
 
 parameters! {
-    /// Parameters of the body.
     struct Moved {
         dimension: usize = whole("-", "2", 2, 3), "dimension";
         strain: f64 = real("-", "1e-6", 0.0, 1e-4), "size of the strain at the end";
@@ -105,7 +104,6 @@ impl Setup<Moved> {
         self.transfer() == TransferName::Apic
     }
 
-    /// The gradient of the displacement at the end.
     fn gradient<const D: usize>(&self) -> SMatrix<f64, D, D> {
         SMatrix::from_fn(|i, j| self.strain * GRADIENT[i][j])
     }
@@ -165,7 +163,6 @@ fn checks() -> Vec<Check> {
     ]
 }
 
-/// A body that moves.
 struct Moving {
     setup: Setup<Moved>,
     law: NeoHookean,

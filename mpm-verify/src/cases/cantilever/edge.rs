@@ -74,7 +74,6 @@ impl Edge {
     }
 }
 
-/// The least and the greatest.
 pub(super) fn extremes(field: &[f64]) -> [f64; 2] {
     (field.iter()).fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| [lo.min(*s), hi.max(*s)])
 }

@@ -20,7 +20,6 @@ const LEVELS: [(&str, &str); 4] =
 const PAPER: [&str; 3] = ["law=jaumann-linear", "points=gauss", "stabilisation=soft"];
 
 choices! {
-    /// Elastic law.
     pub(super) enum LawName {
         Hencky = "hencky", NeoHookean = "neo-hookean", Jaumann = "jaumann", JaumannLinear = "jaumann-linear",
     }
@@ -31,7 +30,6 @@ choices! {
 }
 
 parameters! {
-    /// Parameters of the cantilever.
     pub(super) struct Cantilever {
         law: LawName = LawName::Hencky.by_default(), "elastic law; jaumann is integrated to second order, jaumann-linear as the paper does";
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");

@@ -62,7 +62,6 @@ impl Setup<Cantilever> {
         self.start_at(xs.iter().flat_map(|x| ys.iter().map(|y| [*x, *y]).collect::<Vec<_>>()))
     }
 
-    /// The simulation at its start.
     pub(super) fn scene(&self) -> Begun<2> {
         let (young, ratio) = (self.young_modulus, self.poisson_ratio);
         let law: SharedLaw = match self.law {
@@ -98,7 +97,6 @@ impl Setup<Cantilever> {
     }
 }
 
-/// A beam under its growing weight.
 pub(super) struct Bending {
     setup: Setup<Cantilever>,
     edge: Edge,

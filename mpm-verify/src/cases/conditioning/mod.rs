@@ -23,7 +23,6 @@ choices! {
 const PRESSURE_GHOST: Parameter = PressureGhost::Conductivity.by_default().named("pressure_ghost");
 
 parameters! {
-    /// Parameters of the half ellipse.
     struct Ellipse {
         alpha: f64 = real("-", "0.1", 0.0, 10.0), "strength of both ghost penalties: of the displacement's over G, of the pressure's over its conductivity";
         positions: usize = whole("-", "40", 4, 400), "places of the body within one cell of the pressure";

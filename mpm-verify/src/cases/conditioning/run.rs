@@ -22,7 +22,6 @@ const MODULI: Moduli = Moduli { lambda: 1.0, mu: 1.0 };
 /// The whole matrix is analysed in one of this number of places.
 const OF_WHOLE: usize = 4;
 
-/// Findings of a place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     /// log10 of the condition numbers of the matrices of displacement and pressure.
@@ -123,7 +122,6 @@ impl Setup<Ellipse> {
         2.0 * (k as f64 + 0.5) / self.positions as f64
     }
 
-    /// The particles at the `k`-th place.
     fn cloud(&self, k: usize) -> Cloud {
         let h = self.h;
         let half = HALF_AXES;
@@ -140,7 +138,6 @@ impl Setup<Ellipse> {
         cloud
     }
 
-    /// The matrices at the `k`-th place with the functions `I`.
     fn with<I: OfHats<2>>(&self, k: usize) -> Result<Found, Fault> {
         let h = self.h;
         let grid = Grid::new(h, [Axis::open(0.0, CELLS[0]), Axis::walls(0.0, CELLS[1])])?;

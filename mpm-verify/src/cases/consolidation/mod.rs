@@ -27,12 +27,10 @@ const GHOSTS: [&str; 9] = [
 const VOLUME_RATE: Parameter = Rate::Exact.by_default().named("volume_rate");
 
 choices! {
-    /// Change of a particle's volume in a step over the volume at its start.
     enum Rate { Exact = "exact", Logarithmic = "logarithmic" }
 }
 
 parameters! {
-    /// Parameters of the column.
     struct Consolidation {
         load: f64 = real("-", "0.3", 1e-4, 2.0), "load q over the oedometric modulus M₀ of the undeformed column; the reference has 0.003, 0.3 and 1";
         refine: i32 = whole("-", "4", 1, 64), "steps that each of the 125 is cut into; the reference of steps has 1, 2, 4 and 8";

@@ -28,7 +28,6 @@ impl Setup<Consolidation> {
         self.load * MODULUS
     }
 
-    /// Number of steps.
     pub(super) fn count(&self) -> f64 {
         f64::from(STEPS) * f64::from(self.refine)
     }
@@ -89,7 +88,6 @@ fn largest(seen: &[At], exact: &[At], of: impl Fn(&At, &At) -> f64) -> f64 {
     distances.reduce(greater).unwrap_or(f64::NAN)
 }
 
-/// Observations of the column.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// The column after every step.

@@ -68,7 +68,6 @@ impl Setup<Cook> {
         self.remedy() == FbarRecursive
     }
 
-    /// Whether the body is too compressible for F̄.
     fn is_compressible(&self) -> bool {
         self.poisson_ratio < NEARLY_INCOMPRESSIBLE.0
     }
@@ -83,7 +82,6 @@ impl Setup<Cook> {
         self.h == RESOLVED
     }
 
-    /// Whether the pressure is known to oscillate.
     fn is_noisy(&self) -> bool {
         self.is_free_of_locking() && self.is_beyond() && self.is_established()
     }
@@ -179,7 +177,6 @@ impl Setup<Cook> {
         self.stress_scale() * (self.h * gradient).hypot(SMOOTH * stress)
     }
 
-    /// The reference in words.
     fn source(&self) -> String {
         let words = |s: &Solution| {
             let (ratio, uncertainty) = (s.poisson_ratio, s.uncertainty_displacement);
@@ -197,7 +194,6 @@ impl Run<'_, Cook> {
         0.5 * turn * bulk.sqrt()
     }
 
-    /// Newton iterations that quadratic convergence takes at most.
     fn most_iterations(&self) -> f64 {
         let (tolerance, more) = NEWTON;
         let squarings = (1.0 + tolerance.ln() / self.contraction().ln()).log2().ceil();

@@ -9,7 +9,6 @@ const STRESS_RANGE: f64 = 0.15;
 const BASES: [BasisName; 3] = [Gimp, Bspline2, Bspline3];
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (48.0, 44.0), (48.0, 60.0), (0.0, 44.0)];
 
-/// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let mut runs = Exhibit::new(gallery, own_runs(gallery.records));
     for basis in BASES {

@@ -18,12 +18,10 @@ const LEVELS: [(&str, f64, &str); 4] =
 const POISSON_RATIO: Parameter = common::POISSON_RATIO.with_default("0.499");
 
 choices! {
-    /// Particles that carry the load.
     enum LoadAt { Column = "column", Edge = "edge" }
 }
 
 parameters! {
-    /// Parameters of the membrane.
     struct Cook {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("70");
         poisson_ratio: f64 = POISSON_RATIO;

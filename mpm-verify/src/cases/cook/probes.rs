@@ -7,7 +7,6 @@ use crate::probe::nearest;
 /// Points on the right side whose mean is `edge_mean_uy`.
 const EDGE_POINTS: usize = 8;
 
-/// Probes in particles.
 pub(super) struct Probes {
     /// Initial positions (m) of the particles.
     references: Vec<[f64; 2]>,

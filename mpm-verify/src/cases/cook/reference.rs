@@ -130,7 +130,6 @@ impl Solution {
     }
 }
 
-/// Deflections under a large load.
 #[derive(Debug, Clone, Copy, Deserialize)]
 pub(super) struct LargeLoad {
     load_over_young_modulus: f64,
@@ -227,7 +226,6 @@ fn away_from_singularities(x: &[f64; 2]) -> bool {
 pub(super) struct StressField(BTreeMap<(usize, usize), f64>);
 
 impl StressField {
-    /// The stored field.
     pub(super) fn stored() -> &'static Self {
         static STORED: LazyLock<StressField> = LazyLock::new(|| {
             let mut reader = csv::Reader::from_reader(FIELD.as_bytes());

@@ -100,7 +100,6 @@ impl Setup<Cook> {
     }
 }
 
-/// A loaded membrane.
 pub(super) struct Membrane {
     setup: Setup<Cook>,
     probes: Probes,
@@ -108,7 +107,6 @@ pub(super) struct Membrane {
     dt: f64,
 }
 
-/// Observations of a membrane on its way to rest.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// The criterion of rest with its observations; none before the first row.
@@ -178,7 +176,6 @@ impl Membrane {
             && seen.creep(time).is_some_and(|line| line.slope * period > CREEP)
     }
 
-    /// Row of a membrane that moves.
     fn observe(&self, seen: &mut Seen, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let mut rest = self.rest(seen)?;
         let steps = ((self.setup.period() / OBSERVATIONS / self.dt).round() as u64).max(1);
@@ -230,7 +227,6 @@ impl Membrane {
         })
     }
 
-    /// Row of a membrane in equilibrium.
     fn press(&self, phase: &mut Phase<2>) -> Result<Row, Fault> {
         let iterations = phase.iterate(1)?;
         let run = phase.run.as_ref();
@@ -252,7 +248,6 @@ impl Membrane {
         })
     }
 
-    /// Metrics of the way to rest.
     fn of_motion(&self, seen: &Seen, run: &dyn Simulation<2>) -> Vec<(Metric, f64)> {
         let time = run.time();
         let creep = seen.creep(time);

@@ -13,12 +13,10 @@ const LEVELS: [Level; 1] = [Level { name: "n6", h: 1.0 / PERIOD as f64 }];
 const SEEN: f64 = 0.02;
 
 choices! {
-    /// Arrangement of the particles.
     enum Layout { Aligned = "aligned", Jittered = "jittered", Cut = "cut" }
 }
 
 parameters! {
-    /// Parameters of the lattice.
     struct Step {
         dimension: usize = whole("-", "2", 1, 3), "dimensions of the lattice";
         layout: Layout = Layout::Aligned.by_default(),

@@ -29,7 +29,6 @@ const STEP: f64 = 1e-5;
 /// Jitter in shares of a particle.
 const JITTER: f64 = 0.25;
 
-/// Observations: whether noise grew, trial by trial.
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Grown(Vec<bool>);
 
@@ -42,14 +41,12 @@ impl Grown {
         })
     }
 
-    /// The next CFL number.
     fn cfl(&self) -> f64 {
         let [lo, hi] = self.range();
         (0.5 * (lo + hi)).exp()
     }
 }
 
-/// A lattice of particles with noise.
 pub(super) struct Trials<const D: usize> {
     setup: Setup<Step>,
     scheme: Explicit,

@@ -50,7 +50,6 @@ pub(super) struct State {
 }
 
 impl State {
-    /// The row of the series.
     pub(super) fn columns(&self) -> Row {
         row! {
             "time (s)": self.time,
@@ -86,7 +85,6 @@ impl State {
     }
 }
 
-/// The flow so far, since the gate was removed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Flow {
     pub(super) rows: Vec<State>,

@@ -19,9 +19,7 @@ const LADDER: &str = "cfl=0.3";
 const SHORT: &str = "cfl=0.3 duration=0.6";
 
 choices! {
-    /// How the water comes to rest behind the gate.
     pub(super) enum Rest { Exact = "exact", GravityStage = "gravity-stage" }
-    /// Contact of the water with the walls.
     pub(super) enum Contact { Separable = "separable", Sticky = "sticky" }
 }
 
@@ -29,7 +27,6 @@ const CFL: Parameter = common::CFL.with_default("0.0567").named("cfl");
 const PIC_RATE: Parameter = real("1/s", "0", 0.0, 1e6).named("pic_rate");
 
 parameters! {
-    /// Parameters of the dam break.
     pub(super) struct DamBreak {
         bulk_modulus: f64 = real("Pa", "2e9", 1e5, 1e12), "bulk modulus K";
         density: f64 = real("kg/m³", "997.5", 1e-3, 1e5), "density ρ without pressure";

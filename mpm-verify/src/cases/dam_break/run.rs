@@ -32,7 +32,6 @@ const SNAPSHOTS: [f64; 4] = [0.4, 1.0, 1.5, 2.0];
 /// Longest periods of the water over which the forces behind the gate are averaged.
 const PERIODS: f64 = 3.0;
 
-/// The water in its tank, behind the gate or free.
 pub(super) struct Dam {
     setup: Setup<DamBreak>,
     law: NewtonianFluid,
@@ -63,7 +62,6 @@ impl Dam {
         solver(self.setup.scheme, scene, self.settings(damping)?)
     }
 
-    /// The same water without a gate.
     pub(super) fn released(&self) -> Begun<2> {
         solver(self.setup.scheme, self.tank(0.0)?, self.settings(0.0)?)
     }
@@ -197,7 +195,6 @@ fn gate_of(basis: BasisName, h: f64) -> RigidNodes<2> {
     }
 }
 
-/// Observations of the water.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Observed {
     /// Whether the gate is gone.

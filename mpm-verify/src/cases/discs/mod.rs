@@ -27,7 +27,6 @@ const HALF: f64 = 0.5;
 const STRESS_RANGE: f64 = 100.0;
 
 choices! {
-    /// Time step over the paper's.
     enum StepFactor { One = "1", Ten = "10", Hundred = "100" }
     /// How the discs meet: on the nodes that both see, or as bodies that slide on each other.
     enum Contact { Grid = "grid", Bodies = "bodies" }
@@ -40,7 +39,6 @@ impl StepFactor {
 }
 
 parameters! {
-    /// Parameters of the discs.
     struct Discs {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.3");
@@ -190,7 +188,6 @@ fn sketch() -> Sketch {
 }
 
 impl Run<'_, Discs> {
-    /// Rounding of an explicit run.
     fn rounding(&self) -> f64 {
         (self.steps() * ROUNDINGS * f64::EPSILON).max(1e-12)
     }

@@ -71,7 +71,6 @@ impl Setup<Discs> {
     }
 }
 
-/// Sums over the particles.
 #[derive(Default, Clone, Copy, Serialize, Deserialize)]
 struct Sums {
     momentum: [f64; 2],
@@ -84,7 +83,6 @@ struct Sums {
     energies: [f64; 3],
 }
 
-/// Extremes of all steps so far.
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Extremes {
     steps: u64,
@@ -107,7 +105,6 @@ pub(super) struct Extremes {
     rows: u64,
 }
 
-/// Two discs that collide.
 pub(super) struct Collision {
     setup: Setup<Discs>,
     steps: u64,
@@ -168,7 +165,6 @@ impl Collision {
         apart[0].hypot(apart[1])
     }
 
-    /// Notes the extremes of a step.
     fn note(&self, seen: &mut Extremes, run: &dyn Simulation<2>, start: &Sums) {
         let sums = self.sums(run);
         let energy = |[kinetic, other]: [f64; 2]| kinetic + other;

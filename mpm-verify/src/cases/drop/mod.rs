@@ -13,12 +13,10 @@ const SLIPS: f64 = 4.0;
 const YIELDS: f64 = 0.02;
 
 choices! {
-    /// Time step over that of the CFL number.
     enum StepFactor { One = "1", Ten = "10", Thirty = "30" }
 }
 
 parameters! {
-    /// Parameters of the block.
     struct Drop {
         speed: f64 = real("-", "0.02", 1e-4, 0.3), "speed at which the block falls, over that of waves";
         slant: f64 = real("-", "1", -10.0, 10.0), "speed along the floor over that";

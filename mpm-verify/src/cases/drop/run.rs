@@ -20,7 +20,6 @@ const ROOM: f64 = 4.0;
 /// Smaller errors are rounding.
 const LEAST: f64 = 1e-12;
 
-/// Extremes of all steps so far.
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Extremes {
     rows: u64,
@@ -32,7 +31,6 @@ pub(super) struct Extremes {
     momentum: f64,
 }
 
-/// A block.
 pub(super) struct Falling {
     setup: Setup<Drop>,
     law: NeoHookean,
@@ -57,7 +55,6 @@ impl Falling {
         0.5 * self.setup.pitch() - self.reach() - CLEAR
     }
 
-    /// The floor's barrier and friction.
     fn contact(&self) -> Result<RigidContact<2>, Fault> {
         let stress = DENSITY * self.law.wave_speed(DENSITY) * self.velocity[1].abs();
         let force = self.setup.stiffness * stress * self.setup.pitch();
@@ -67,7 +64,6 @@ impl Falling {
         Ok(RigidContact::new(face, barrier).with_friction(Friction::new(self.setup.friction, stick)?))
     }
 
-    /// Extends the extremes by the state after a step.
     fn note(&self, seen: &mut Extremes, run: &dyn Simulation<2>) {
         let totals = run.totals();
         let energy = totals.kinetic_energy + totals.stored_energy;

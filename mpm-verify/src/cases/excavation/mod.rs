@@ -26,16 +26,12 @@ const ARCS: f64 = 0.012;
 const SAME: f64 = 0.01;
 
 choices! {
-    /// Contact with the base.
     enum Base { Rough = "rough", Frictional = "friction" }
-    /// Application of gravity.
     enum Raising { Ramp = "ramp", Step = "step" }
-    /// Constitutive law.
     enum LawName { Hencky = "hencky-j2", Jaumann = "jaumann-j2" }
 }
 
 parameters! {
-    /// Parameters of the excavation.
     struct Excavation {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("2e5").within(number(1e3, 1e9, false));
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.33");

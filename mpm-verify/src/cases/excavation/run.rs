@@ -53,7 +53,6 @@ impl Setup<Excavation> {
         (!seen.stage.moves() || moved <= RESTS * seen.halfway).then_some(true)
     }
 
-    /// The stage after a row, if another begins.
     fn next(&self, seen: &Seen, found: bool, moved: f64) -> Option<Stage> {
         let last = seen.rows == self.rows(seen.stage);
         let stands = self.stands(seen, true, moved) == Some(true);
@@ -101,7 +100,6 @@ struct Energies {
     dissipated: f64,
 }
 
-/// Observations of the ground.
 #[derive(Debug, Default, Clone, Serialize, Deserialize)]
 pub(super) struct Seen {
     stage: Stage,
@@ -136,7 +134,6 @@ struct Motion {
     work: f64,
 }
 
-/// The whole slope under full gravity.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 struct Uncut {
     ratios: [f64; 2],
@@ -156,7 +153,6 @@ impl Ground {
         }
     }
 
-    /// Begins a stage with the ground as it is.
     fn enter(&self, seen: &mut Seen, phase: &mut Phase<2>, stage: Stage) -> Result<(), Fault> {
         if seen.stage.moves() {
             seen.before += phase.run.time();

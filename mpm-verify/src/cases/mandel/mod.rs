@@ -13,7 +13,6 @@ const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
 const RATIOS: [&str; 2] = ["poisson_ratio=0", "poisson_ratio=0.4"];
 
 parameters! {
-    /// Parameters of the slab.
     struct Mandel {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");

@@ -176,7 +176,6 @@ pub(in crate::cases) fn rests(statement: &'static str, bound: impl Fn(&Run<()>) 
         .because("the exact solution is a state of rest")
 }
 
-/// The particles have the mass of the body.
 pub(in crate::cases) fn mass() -> Check {
     let statement = "the particles have the mass of the body, to rounding";
     let rounding = |r: &Run<()>| {
@@ -237,7 +236,6 @@ fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> 
     check.study(study)
 }
 
-/// The checks on the order of errors.
 pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
     let falls = "the rms error of u falls from level to level, where the order is judged";
     [

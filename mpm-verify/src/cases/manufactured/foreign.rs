@@ -41,7 +41,6 @@ fn rows<const D: usize, K: Known>(given: &Given) -> Result<(Motion<D, K>, Vec<Sa
     Ok((motion, start.into_iter().chain(rows).collect()))
 }
 
-/// Metrics of a standing wave.
 pub(in crate::cases) fn of_wave<K: Known>() -> Vec<Group> {
     let measure = |given: &Given| {
         let (motion, rows) = rows::<1, K>(given)?;

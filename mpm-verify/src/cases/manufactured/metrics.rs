@@ -33,7 +33,6 @@ metrics! { pub(in crate::cases) METRICS:
     BASE_PRESSURE = "base_pressure", "Pa", "pressure at the floor, by a straight line through the lower half";
 }
 
-/// Columns of the table of results.
 pub(super) fn headlines() -> Vec<Column> {
     vec![
         headline(DISPLACEMENT_L2, "u rms error (m)", 1.0, 8),

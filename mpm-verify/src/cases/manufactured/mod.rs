@@ -40,7 +40,6 @@ pub(super) const THREE: &str = "n8 n16 n32";
 pub(super) const FOUR: &str = "n8 n16 n32 n64";
 pub(super) const FIVE: &str = "n8 n16 n32 n64 n128";
 
-/// The boundary of a body.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Boundary {
     /// Walls on all sides.

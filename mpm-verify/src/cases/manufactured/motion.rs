@@ -14,7 +14,6 @@ const MOST_STEPS: u64 = 100_000;
 /// Times at which the exact displacement is measured for its scale.
 const SCALE_TIMES: u32 = 20;
 
-/// A motion beside its exact solution.
 pub(in crate::cases) struct Motion<const D: usize, K> {
     scenario: Scenario<K>,
     pub(super) timing: Timing,
@@ -23,7 +22,6 @@ pub(in crate::cases) struct Motion<const D: usize, K> {
     frequency: Option<f64>,
 }
 
-/// Observations of a motion.
 #[derive(Default, Serialize, Deserialize)]
 pub(in crate::cases) struct Seen {
     /// Means of J̄ and J over each cell at the start, of a body that is to stay at rest.

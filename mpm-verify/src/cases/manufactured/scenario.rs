@@ -19,7 +19,6 @@ const STEPS_PER_COST: f64 = 5e7;
 /// Cost of a step of Newton's method over that of an explicit one.
 const NEWTON: f64 = 500.0;
 
-/// Division of the duration into steps.
 pub(super) struct Timing {
     /// Number of steps, a whole one.
     pub(super) steps: f64,
@@ -27,7 +26,6 @@ pub(super) struct Timing {
     pub(super) dt: f64,
 }
 
-/// A run with its exact solution.
 pub(in crate::cases) struct Scenario<K> {
     pub(in crate::cases) setup: Setup<Own<K>>,
     pub(in crate::cases) solution: Arc<dyn Exact>,
@@ -209,7 +207,6 @@ pub(in crate::cases) fn vector<const D: usize>(x: &[f64; D]) -> Vector3<f64> {
     v
 }
 
-/// The first components.
 fn components<const D: usize>(v: &Vector3<f64>) -> [f64; D] {
     std::array::from_fn(|a| v[a])
 }

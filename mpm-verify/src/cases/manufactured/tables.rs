@@ -12,7 +12,6 @@ pub(in crate::cases) fn changes(r: &Record, set: &str) -> bool {
     r.set.join(" ") == set
 }
 
-/// Whether a run is at this place of a table.
 fn is_at(r: &Record, (_, level, set): At) -> bool {
     r.level == level && changes(r, set)
 }

@@ -18,16 +18,12 @@ const TIGHT: &str = "conductivity=1e-6";
 const TIMES: [&str; 3] = ["source=rates", "source=rates steps=8", "source=rates steps=16"];
 
 choices! {
-    /// Dependence of the conductivity on the porosity.
     enum Law { KozenyCarman = "kozeny-carman", Constant = "constant" }
-    /// Source of water.
     enum Source { Steps = "steps", Rates = "rates" }
-    /// Start of Newton's method.
     enum Start { Particles = "particles", Zero = "zero" }
 }
 
 parameters! {
-    /// Parameters of the motion.
     struct Motion {
         dimension: i32 = whole("-", "2", 1, 2), "dimension: 1 uniaxial strain, 2 plane strain";
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e5");

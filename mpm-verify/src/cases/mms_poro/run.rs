@@ -30,7 +30,6 @@ impl Setup<Motion> {
         (self.pressure + DENSITIES[0] * self.gravity) / self.young_modulus
     }
 
-    /// The solver's law and conductivity.
     fn own(&self) -> Result<(ImprovedHencky, Conductivity), Fault> {
         let (porosity, kappa) = (self.porosity, self.kappa());
         let conductivity = match self.conductivity_law {
@@ -62,7 +61,6 @@ fn place<const D: usize>(x: &[f64; D]) -> [f64; 3] {
     from_fn(|a| x.get(a).copied().unwrap_or(0.0))
 }
 
-/// A motion of solid and water.
 pub(super) struct Moving {
     setup: Setup<Motion>,
     solution: SolidAndWater,

@@ -48,10 +48,8 @@ fn solution(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
     (swirl::ENTRY.build)(p)
 }
 
-/// A slow motion beside its exact solution.
 struct Slow<const D: usize>(Scenario<SlowVortex>);
 
-/// Begins a run in as many dimensions as asked for.
 pub(super) fn begin(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Error> {
     match solution(p)?.dimension() {
         3 => problem::begin::<3, Slow<3>>(spec, p),

@@ -19,12 +19,10 @@ const STEADY: f64 = 0.7;
 const WHOLE: f64 = 1.0 - 1e-9;
 
 choices! {
-    /// The support of the column.
     enum Support { Hangs = "hangs", Stands = "stands" }
 }
 
 parameters! {
-    /// Parameters of the column.
     struct Newton {
         support: Support = Support::Hangs.by_default(), "the column hangs from its upper end and softens, or stands on a barrier";
         load: f64 = real("-", "0.7", 0.01, 100.0), "weight of the column over the greatest that it bears hanging, M/e of its area";

@@ -31,7 +31,6 @@ impl Setup<Newton> {
     }
 }
 
-/// A column.
 pub(super) struct Loaded {
     setup: Setup<Newton>,
     law: Hencky,
@@ -50,7 +49,6 @@ impl Loaded {
         0.5 * YOUNG_MODULUS / (1.0 + self.setup.poisson_ratio)
     }
 
-    /// The body in uniaxial strain.
     fn uniaxial(&self) -> Uniaxial {
         let yields = self.setup.yield_strain;
         Uniaxial {

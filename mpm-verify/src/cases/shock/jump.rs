@@ -7,7 +7,6 @@ const SLICES: usize = 1000;
 /// Relative step of derivatives.
 const STEP: f64 = 1e-4;
 
-/// The state behind the front.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Jump {
     /// Stretch, its stress (Pa, tension positive), and the front's speed through the undeformed material (m/s).

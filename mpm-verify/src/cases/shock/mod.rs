@@ -15,7 +15,6 @@ const COARSE: f64 = 1.0 / 128.0;
 const JUMPS: &str = "Rankine and Hugoniot; what is not lost rings, and moves the mean by ½ P″⟨δF²⟩";
 
 parameters! {
-    /// Parameters of the bar.
     struct Shock {
         mach: f64 = real("-", "0.5", 0.01, 3.0), "speed of the bar over that of its waves";
         linear_viscosity: f64 = common::LINEAR_VISCOSITY;

@@ -18,7 +18,6 @@ const ROWS: u64 = 100;
 const ROOM: usize = 2;
 
 impl Setup<Shock> {
-    /// Coefficients of the artificial viscosity.
     fn viscosity(&self) -> [f64; 2] {
         [self.linear_viscosity, self.quadratic_viscosity]
     }
@@ -39,7 +38,6 @@ impl Setup<Shock> {
     }
 }
 
-/// A bar and its front.
 pub(super) struct Bar {
     setup: Setup<Shock>,
     law: NeoHookean,

@@ -30,7 +30,6 @@ pub(in crate::cases) struct Slope {
 }
 
 impl<P: ParameterSet> Setup<P> {
-    /// The slope of the parameters.
     pub(in crate::cases) fn slope(&self) -> Slope {
         let number = |p| self.values.number(p);
         let height = number(HEIGHT);

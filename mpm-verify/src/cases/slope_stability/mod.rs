@@ -17,7 +17,6 @@ const SLOW: f64 = 0.005;
 const FINE: f64 = 0.2;
 
 parameters! {
-    /// Parameters of the slope.
     struct Stability {
         young_modulus: f64 = slope::YOUNG_MODULUS;
         poisson_ratio: f64 = slope::POISSON_RATIO;

@@ -17,7 +17,6 @@ const STATIC_LOOKS: usize = 40;
 /// Local damping of a trial.
 const TRIAL_DAMPING: f64 = 0.5;
 
-/// A trial.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(super) struct Trial {
     /// Factor by which the strength is divided.
@@ -30,7 +29,6 @@ pub(super) struct Trial {
     pub(super) time: f64,
 }
 
-/// Observations of the trials.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// The ground at rest with its full strength: initial state of a trial in motion. In equilibrium gravity rises anew.
@@ -85,7 +83,6 @@ impl Setup<Stability> {
         if seen.trials.is_empty() { self.most } else { 0.5 * (stands + fails) }
     }
 
-    /// Whether no factor is left to try.
     fn is_known(&self, seen: &Seen) -> bool {
         let stands_always = bracket(&seen.trials).1.is_infinite() && !seen.trials.is_empty();
         stands_always || seen.trials.len() >= self.trials as usize
@@ -113,7 +110,6 @@ impl Setup<Stability> {
     }
 }
 
-/// The slope on trial.
 pub(super) struct Trials {
     setup: Setup<Stability>,
     ground: Ground<2>,

@@ -8,12 +8,10 @@ mod run;
 use crate::cases::prelude::*;
 
 choices! {
-    /// Arrangement of the particles.
     enum Layout { Lattice = "lattice", Jittered = "jittered", Random = "random", Scattered = "scattered", Holes = "holes" }
 }
 
 parameters! {
-    /// Parameters of the clouds.
     struct Sparse {
         layout: Layout = Layout::Random.by_default(),
             "lattice; jittered: anywhere in its own part of a cell; random: anywhere in its cell; scattered: anywhere in the body; holes: a lattice that lacks one particle of every cell";

@@ -11,7 +11,6 @@ const ANGLE: f64 = 0.01;
 const MOVING: f64 = 0.5;
 const SLOW: f64 = 1e6;
 
-/// Findings of a cloud.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Cloud {
     /// Relative errors of displacement and stress, and the displacement along the exact one; none of a cloud that breaks
@@ -20,7 +19,6 @@ pub(super) struct Cloud {
     work: WorkDone,
 }
 
-/// Clouds of one kind.
 pub(super) struct Clouds {
     setup: Setup<Sparse>,
     solution: Arc<dyn Exact>,

@@ -19,7 +19,6 @@ const ORDER: f64 = 2.0;
 const HALF: f64 = 0.5;
 
 parameters! {
-    /// Parameters of the disc.
     struct Disc {
         turns: f64 = real("-", "10", 0.1, 1e4), "turns";
         rim_speed: f64 = real("-", "0.1", 1e-3, 0.3), "speed of the rim over that of waves";
@@ -79,7 +78,6 @@ pub(super) fn case() -> Case {
         .breaks_down(breaks_down)
 }
 
-/// The reason why a disc is known to break down.
 fn breaks_down(r: &Record) -> Option<&'static str> {
     const SWELLS: &str = "the disc swells until it leaves the grid: see musl-swells and gimp-swells";
     let hundred = Setup::<Disc>::number_of(r, |d| d.turns) >= 100.0;

@@ -17,7 +17,6 @@ const SEEN: f64 = 0.02;
 const JUMPS: f64 = 0.3;
 
 parameters! {
-    /// Parameters of the body.
     struct Stretch {
         end: f64 = real("-", "8", 0.02, 20.0), "stretch of each axis at the end: above 1 the body is pulled, below it is crushed";
         dimension: usize = whole("-", "1", 1, 2), "1: uniaxial strain; 2: plane strain, alike along both axes";

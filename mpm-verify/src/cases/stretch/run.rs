@@ -33,7 +33,6 @@ pub(super) struct Observed {
     kept: f64,
 }
 
-/// A body that is stretched.
 pub(super) struct Stretching {
     setup: Setup<Stretch>,
     law: NeoHookean,
@@ -106,7 +105,6 @@ impl Stretching {
         (-count..count).map(|k| (k as f64 + 0.5) / n).collect()
     }
 
-    /// The stretches between one and the last, in their order.
     fn stretches(&self, step: f64) -> impl Iterator<Item = f64> {
         let whole = self.setup.end - 1.0;
         let count = (whole.abs() / step).ceil();

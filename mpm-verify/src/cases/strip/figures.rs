@@ -8,7 +8,6 @@ const SHARES: [f64; 2] = [0.25, 0.5];
 const PRESSURES: (f64, f64) = (0.0, 1.0);
 const STRAINS: (f64, f64) = (-4.0, -1.0);
 
-/// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     pressures(gallery)?;
     plastic_strain(gallery)?;

@@ -33,9 +33,7 @@ const LIMIT_SETTLEMENT: &str = "conductivity=1e-16 control=settlement law=cam-cl
 const UNIFORM: &str = "duration=1e10 half_width=5 law=cam-clay load=1e5";
 
 choices! {
-    /// Law of the soil.
     enum Soil { Elastic = "elastic", CamClay = "cam-clay" }
-    /// The prescribed quantity.
     enum Control { Load = "load", Settlement = "settlement" }
 }
 
@@ -43,7 +41,6 @@ const LAW: Parameter = Soil::Elastic.by_default().named("law");
 const CONTROL: Parameter = Control::Load.by_default().named("control");
 
 parameters! {
-    /// Parameters of the strip.
     struct Strip {
         law: Soil = LAW, "improved Hencky, or modified Cam clay with that elasticity";
         dimension: i32 = whole("-", "2", 2, 3), "2: a strip, in plane strain; 3: a square whose half side is half_width, on a cube of elastic soil";
@@ -191,7 +188,6 @@ fn is_set_but_steps(r: &Record, set: &str) -> bool {
     r.set.iter().map(String::as_str).filter(is_other).eq(set.split_whitespace().filter(is_other))
 }
 
-/// Whether a run is of a strip under a small load.
 fn is_small(r: &Record) -> bool {
     is_set(r, SMALL) || is_set(r, UNDRAINED)
 }

@@ -30,7 +30,6 @@ impl Setup<Strip> {
         self.law == Soil::CamClay
     }
 
-    /// Whether the settlement is given, and not the load.
     pub(super) fn is_driven(&self) -> bool {
         self.control == Control::Settlement
     }
@@ -161,7 +160,6 @@ impl Setup<Strip> {
         places.map(move |(place, p)| known.map_or(f64::NAN, |s| p - s.pressure(place[0], place[D - 1])))
     }
 
-    /// The simulation at its start.
     fn ground<const D: usize>(&self) -> Begun<D> {
         let law: SharedLaw = if self.is_plastic() { self.clay()?.into() } else { self.elasticity()?.into() };
         let (h, up) = (self.h, D - 1);
@@ -209,7 +207,6 @@ impl Setup<Strip> {
     }
 }
 
-/// Observations of the strip.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     steps: u64,
@@ -230,7 +227,6 @@ impl Seen {
         part.map_or(f64::NAN, |([s, q], [t, r])| q + (r - q) * (settlement - s) / (t - s))
     }
 
-    /// Growth of the load in the last quarter of all steps, over itself.
     fn growth(&self) -> f64 {
         let of = |k: usize| self.path.get(k).map_or(f64::NAN, |at| at[1]);
         let all = self.path.len();

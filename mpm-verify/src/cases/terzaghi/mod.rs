@@ -15,7 +15,6 @@ const LEVELS: [(&str, f64); 5] = [("n10", 10.0), ("n20", 20.0), ("n40", 40.0), (
 const SHARES: [f64; 8] = [0.05, 0.1, 1.0 / 6.0, 0.25, 0.35, 2.0 / 3.0, 0.75, 1.0];
 
 parameters! {
-    /// Parameters of the column.
     struct Terzaghi {
         young_modulus: f64 = common::YOUNG_MODULUS.with_default("1e7");
         poisson_ratio: f64 = common::POISSON_RATIO.with_default("0.25");

@@ -37,7 +37,6 @@ impl Setup<Terzaghi> {
         (0..self.steps).map(|k| first * growth.powi(k)).collect()
     }
 
-    /// Time factor T at the end.
     pub(super) fn end(&self) -> f64 {
         self.durations().iter().sum()
     }

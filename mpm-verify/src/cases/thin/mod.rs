@@ -26,7 +26,6 @@ const STIFF: f64 = 0.49;
 const CFL: Parameter = common::CFL.with_default("0.3").within(number(1e-3, 100.0, false));
 
 parameters! {
-    /// Parameters of the beam.
     struct Thin {
         shift: f64 = real("h", "0", 0.0, 1.0).below(), "how far the faces of the beam lie above the nearest grid lines, in cells";
         ppc_per_direction: usize = common::PPC_PER_DIRECTION;

@@ -14,7 +14,6 @@ const ROWS: f64 = 40.0;
 /// Cells of room beside the beam.
 const ROOM: usize = 3;
 
-/// A beam that swings.
 pub(super) struct Swing {
     setup: Setup<Thin>,
     law: NeoHookean,
@@ -27,7 +26,6 @@ pub(super) struct Swing {
 }
 
 impl Swing {
-    /// The deflection as a share of the mode.
     fn share(&self, run: &dyn Simulation<2>) -> f64 {
         let p = run.particles();
         let (mut along, mut squares) = (0.0, 0.0);

@@ -17,7 +17,6 @@ const SWING: f64 = 2.0;
 const SLOW: f64 = 0.06;
 
 parameters! {
-    /// Parameters of the body.
     struct Translate {
         stretch: f64 = real("-", "0.98", 0.8, 1.2), "equal stretch in the plane that the body is under: below 1 a pressure, above a tension";
         speed: f64 = real("-", "0.05", 1e-3, 0.5), "speed of the body over that of waves";

@@ -17,7 +17,6 @@ const ROWS: f64 = 2.0;
 const LEAST_NOISE: f64 = 1e-10;
 const LEAST_ERROR: f64 = 1e-12;
 
-/// A body under a uniform stress that moves.
 pub(super) struct Translation {
     setup: Setup<Translate>,
     law: NeoHookean,

@@ -10,11 +10,8 @@ use crate::cases::prelude::*;
 const LEVELS: [(&str, f64); 3] = [("n8", 8.0), ("n16", 16.0), ("n32", 32.0)];
 
 choices! {
-    /// Shape of the body.
     enum Domain { Square = "square", Ellipse = "ellipse" }
-    /// Places of the particles' domains.
     enum Layout { Aligned = "aligned", Across = "across" }
-    /// Functions of the pressure.
     enum PressureFunctions { Same = "same", Linear = "linear" }
 }
 
@@ -22,7 +19,6 @@ const DOMAIN: Parameter = Domain::Square.by_default().named("domain");
 const PRESSURE_FUNCTIONS: Parameter = PressureFunctions::Same.by_default().named("pressure_functions");
 
 parameters! {
-    /// Parameters of the undrained body.
     struct Undrained {
         domain: Domain = DOMAIN, "square: held all around, on grid lines; ellipse: half of one, held at its straight side, that fits no grid";
         points_per_direction: usize = whole("-", "2", 2, 4), "particles per cell of the displacement and direction";

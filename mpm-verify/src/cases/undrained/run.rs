@@ -20,7 +20,6 @@ const MIDDLE: f64 = 0.513;
 /// Points along the edge of a cell of the displacement at which held functions are zero.
 const POINTS: usize = 4;
 
-/// Findings of a level.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Found {
     /// The least β that is not zero, and the number of zeros.
@@ -45,7 +44,6 @@ fn force([x, y]: &[f64; 2]) -> [f64; 2] {
     [of_shear(*x, *y) - PI * (PI * x).sin() * (PI * y).cos(), -of_shear(*y, *x) - PI * (PI * x).cos() * (PI * y).sin()]
 }
 
-/// Functions of a displacement and a pressure.
 #[derive(Debug, Clone, Copy)]
 enum Pair {
     Linear,
@@ -54,7 +52,6 @@ enum Pair {
     SplinesAndLinear,
 }
 
-/// Functions, grids, particles and held points of a body at one level.
 pub(super) struct Body {
     setup: Setup<Undrained>,
     pair: Pair,

@@ -115,7 +115,6 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
 /// The vortex in a box: its profile falls from one to a half over 0.16 m, a sixth of a wave.
 pub(in crate::cases) const VORTEX: Wave = Wave::shear(|_| 6.5);
 
-/// Convergence of the vortex in a box.
 pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
     if r.basis() == Linear {
         return Claim::Open(JUMPS);

@@ -15,7 +15,6 @@ const COMPRESSIBLE: f64 = 0.3;
 /// Errors over the distance from incompressibility.
 pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep::of(POISSON_RATIO, "0.5 − ν").over(|nu| 0.5 - nu).logarithmic();
 
-/// The checks of locking.
 pub(in crate::cases) fn locking() -> [Check; 2] {
     [
         Gate::truth("no-locking", "F̄ except fbar-recursive, not linear, up to 1 − 2ν = ε²: rms error of u at most 1.2 times that at ν = 0.3")
