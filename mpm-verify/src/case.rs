@@ -309,6 +309,12 @@ impl Case {
         Self { begin: Box::new(begin), ..self }
     }
 
+    /// Adds checks.
+    pub(crate) fn checks(mut self, checks: impl IntoIterator<Item = Check>) -> Self {
+        self.checks.extend(checks);
+        self
+    }
+
     /// Adds a table of its results.
     pub(crate) fn table(mut self, table: ResultTable) -> Self {
         self.tables.push(table);
@@ -320,8 +326,6 @@ impl Case {
         references: Vec<String>;
         /// With other metrics.
         metrics: Vec<Metric>;
-        /// With these checks.
-        checks: Vec<Check>;
         /// Replaces all columns of the table of results.
         headlines: Vec<Column>;
         /// Replaces all quantities whose convergence is studied.

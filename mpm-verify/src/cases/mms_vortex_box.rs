@@ -18,8 +18,6 @@ impl Known for Vortex {
 }
 
 pub(super) fn case() -> Case {
-    let mut checks = of_motion(of_vortex, VORTEX);
-    checks.extend(locking());
     known_case::<2, Vortex>([
         "mms-vortex-box",
         "Vortex in a box",
@@ -30,7 +28,8 @@ pub(super) fn case() -> Case {
     .limit("Rotation by up to one radian with F updated by I + Δt ∇v: the error in time is first order. All runs take the steps of ν = 0.4999, so that it is small and alike.")
     .limit("fbar-total and fbar-rate lose convergence, and some runs their life, at n64 and beyond.")
     .limit("The spurious pressure at ν = 0.4999 is λ ln J of errors in J of 10⁻⁴ and doesn't fall over these levels.")
-    .checks(checks)
+    .checks(of_motion(of_vortex, VORTEX))
+    .checks(locking())
     .sweep(LOCKING_CURVE)
     .breaks_down(|r| {
         let known = [

@@ -18,8 +18,6 @@ impl Known for PressedVortex {
 }
 
 pub(super) fn case() -> Case {
-    let mut checks = of_motion(of_vortex, VORTEX);
-    checks.extend(locking());
     known_case::<2, PressedVortex>([
         "mms-vortex-pressure",
         "Vortex with a bounded pressure",
@@ -29,7 +27,8 @@ pub(super) fn case() -> Case {
     .reference("Exact solution: the vortex in a box after a volume change whose pressure tends to p₀ sin ωt (cos 2πX + cos 2πY) as ν → ½; body force from the general formula, tested by eighth-order differences at random points.")
     .limit("The pressure is 100 Pa; at ν = 0.4999 an error of 10⁻⁴ in J is worth more.")
     .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
-    .checks(checks)
+    .checks(of_motion(of_vortex, VORTEX))
+    .checks(locking())
     .sweep(LOCKING_CURVE)
     .table(tables::own_orders("mms-vortex-pressure"))
     .table(tables::locking(

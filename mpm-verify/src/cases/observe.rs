@@ -1,6 +1,6 @@
 //! Set-up and observation shared by several problems.
 
-use super::parameters::{self, ALPHA, DELTA, LUMPED, TOLERANCE, WALL, WALL_LINE};
+use super::parameters::{ALPHA, AUTO, CFL, DELTA, LUMPED, TIME_STEP, TOLERANCE, WALL, WALL_LINE};
 use crate::prelude::*;
 use mpm_core::basis::WallTreatment;
 use mpm_core::explicit::Settings;
@@ -80,7 +80,15 @@ impl<P: ParameterSet> Setup<P> {
     /// The CFL number in `dimension` dimensions: the parameter, or, with `time_step=auto`, that of the step which is stable for
     /// any positions of particles, the smallest of which have a half size of `half_size` cells.
     pub(super) fn cfl_number(&self, dimension: usize, half_size: f64) -> Result<f64, Error> {
-        parameters::cfl_number(self.basis(), &self.values, dimension, half_size)
+        let basis = self.basis();
+        if !self.values.is(TIME_STEP, AUTO) {
+            return Ok(self.values.number(CFL));
+        }
+        mpm_solvers::stable_cfl(basis, dimension, half_size).ok_or_else(|| {
+            Error::Input(format!(
+                "time_step = {AUTO} has no step for the basis {basis}, whose functions vanish with a slope; allowed: cfl"
+            ))
+        })
     }
 }
 

@@ -9,7 +9,7 @@ pub(super) use crate::exact::common::UNSEEN;
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
 /// Word of [`TIME_STEP`].
-const AUTO: &str = "auto";
+pub(super) const AUTO: &str = "auto";
 
 choices! {
     /// How B-splines meet walls.
@@ -44,23 +44,6 @@ parameters! { pub(super) const:
 
 /// Those that the implicit solvers of bodies that move have.
 pub(super) const DYNAMIC: [Parameter; 4] = [LUMPED, ALPHA, DELTA, TOLERANCE];
-
-/// See [`Setup::cfl_number`](crate::setup::Setup::cfl_number).
-pub(super) fn cfl_number(
-    basis: crate::scheme::BasisName,
-    parameters: &Parameters,
-    dimension: usize,
-    half_size: f64,
-) -> Result<f64, Error> {
-    if !parameters.is(TIME_STEP, AUTO) {
-        return Ok(parameters.number(CFL));
-    }
-    mpm_solvers::stable_cfl(basis, dimension, half_size).ok_or_else(|| {
-        Error::Input(format!(
-            "time_step = {AUTO} has no step for the basis {basis}, whose functions vanish with a slope; allowed: cfl"
-        ))
-    })
-}
 
 /// Checks a quotient of parameters, which `what` names with its value.
 ///

@@ -237,52 +237,32 @@ fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> 
 }
 
 pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
+    let second = "second-order theory: rms error of u over the three finest levels of order at least 2 − 0.15";
     let falls = "the rms error of u falls from level to level, where the order is judged";
+    let observed = "no theoretical order: observed order within the band stated with the verdict";
+    let stalls = "rms error of u of order below 2 − 0.15, or that stated with the verdict, for the reason given there";
     [
-        on_ladders(
-            Gate::truth(
-                "order-displacement",
-                "second-order theory: rms error of u over the three finest levels of order at least 2 − 0.15",
-            ),
-            of,
-            |about, l| match l.claim {
-                Claim::Second => {
-                    let why = "second order: linear fields are reproduced, the lumped mass has its centre at the node";
-                    Some(Finding::above(about, l.order, FORMAL - SLACK, why))
-                }
-                Claim::Open(why) => Some(Finding::not_applicable(about, why)),
-                _ => None,
-            },
-        ),
+        on_ladders(Gate::truth("order-displacement", second), of, |about, l| match l.claim {
+            Claim::Second => {
+                let why = "second order: linear fields are reproduced, the lumped mass has its centre at the node";
+                Some(Finding::above(about, l.order, FORMAL - SLACK, why))
+            }
+            Claim::Open(why) => Some(Finding::not_applicable(about, why)),
+            _ => None,
+        }),
         on_ladders(Gate::truth("error-falls", falls), of, |_, l| {
             let (about, why) = (format!("largest ratio of {}", l.about), "a consistent scheme converges");
             matches!(l.claim, Claim::Second).then_some(Finding::at_most(about, l.worst_ratio, 1.0, why))
         }),
-        on_ladders(
-            Gate::regression(
-                "observed-order",
-                "no theoretical order: observed order within the band stated with the verdict",
-            ),
-            of,
-            |about, l| match l.claim {
-                Claim::Observed([least, most], why) => {
-                    let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
-                    Some(Finding::within(about, l.order, middle, half, why))
-                }
-                _ => None,
-            },
-        ),
-        on_ladders(
-            Gate::known_limit(
-                "stalls",
-                "rms error of u of order below 2 − 0.15, or that stated with the verdict, for the reason given there",
-            ),
-            of,
-            |about, l| match l.claim {
-                Claim::Stalls(below, why) => Some(Finding::at_most(about, l.order, below, why)),
-                _ => None,
-            },
-        ),
+        on_ladders(Gate::regression("observed-order", observed), of, |about, l| {
+            let Claim::Observed([least, most], why) = l.claim else { return None };
+            let (middle, half) = (0.5 * (least + most), 0.5 * (most - least));
+            Some(Finding::within(about, l.order, middle, half, why))
+        }),
+        on_ladders(Gate::known_limit("stalls", stalls), of, |about, l| {
+            let Claim::Stalls(below, why) = l.claim else { return None };
+            Some(Finding::at_most(about, l.order, below, why))
+        }),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! Errors of a run against the exact motion.
 
-use super::vector;
+use super::{metrics::*, vector};
 use crate::cases::prelude::*;
 
 /// Displacement of a particle minus the exact one (m); across a periodic end the nearest image counts.
@@ -55,13 +55,25 @@ pub(in crate::cases) fn of_stresses<const D: usize>(
 }
 
 /// Rms and largest of the errors of all particles, as two metrics.
-pub(in crate::cases) fn norms([l2, linf]: [Metric; 2], errors: &[f64]) -> [(Metric, f64); 2] {
+pub(super) fn norms([l2, linf]: [Metric; 2], errors: &[f64]) -> [(Metric, f64); 2] {
     [(l2, rms(errors.iter().copied())), (linf, errors.iter().copied().fold(0.0, f64::max))]
 }
 
-/// Mass of the body (kg).
-pub(in crate::cases) fn mass<const D: usize>(solution: &dyn Exact) -> f64 {
-    let extent = solution.extent();
-    let volume: f64 = extent[..D].iter().map(|[lo, hi]| hi - lo).product();
-    volume * solution.material().density
+/// Metrics that every motion has at its end: errors of displacement and stress, and masses.
+pub(in crate::cases) fn at_end<const D: usize>(
+    solution: &dyn Exact,
+    run: &mut dyn Simulation<D>,
+) -> Vec<(Metric, f64)> {
+    let [stress, mean_stress] = of_stresses(solution, run);
+    let (displacement, totals) = (of_displacements(solution, run), run.totals());
+    let volume: f64 = solution.extent()[..D].iter().map(|[lo, hi]| hi - lo).product();
+    let mut values = vec![
+        (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
+        (MASS, totals.mass),
+        (BODY_MASS, volume * solution.material().density),
+    ];
+    values.extend(norms([DISPLACEMENT_L2, DISPLACEMENT_LINF], &displacement));
+    values.extend(norms([STRESS_L2, STRESS_LINF], &stress));
+    values.extend(norms([MEAN_STRESS_L2, MEAN_STRESS_LINF], &mean_stress));
+    values
 }

@@ -274,29 +274,18 @@ impl<const D: usize, K: Known> Problem<D> for Motion<D, K> {
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
-        let (run, solution) = (phase.run.as_mut(), self.scenario.solution.as_ref());
-        let [stress, mean_stress] = errors::of_stresses(solution, run);
-        let displacement = errors::of_displacements(solution, run);
+        let run = phase.run.as_mut();
         let (velocity, [displacement_ratio, velocity_ratio]) = self.velocities(run);
-        let totals = run.totals();
         let mut values = of_energies(&seen.rows);
         values.extend([
             (DISPLACEMENT_SCALE, self.displacement_scale(run)),
             (DISPLACEMENT_RATIO, displacement_ratio),
             (VELOCITY_RATIO, velocity_ratio),
-            (LOG_JACOBIAN_GAP, totals.log_jacobian_gap_rms),
-            (MASS, totals.mass),
-            (BODY_MASS, errors::mass::<D>(solution)),
         ]);
-        let norms = [
-            ([DISPLACEMENT_L2, DISPLACEMENT_LINF], displacement),
-            ([VELOCITY_L2, VELOCITY_LINF], velocity),
-            ([STRESS_L2, STRESS_LINF], stress),
-            ([MEAN_STRESS_L2, MEAN_STRESS_LINF], mean_stress),
-        ];
-        values.extend(norms.iter().flat_map(|(of, e)| errors::norms(*of, e)));
+        values.extend(errors::norms([VELOCITY_L2, VELOCITY_LINF], &velocity));
+        values.extend(errors::at_end(self.scenario.solution.as_ref(), run));
         if self.scenario.setup.rule() == Some(RuleName::Midpoint) {
-            values.push((LUMPING_LOSS, share(totals.accumulated.lumping_loss, peak(&seen.rows))));
+            values.push((LUMPING_LOSS, share(run.totals().accumulated.lumping_loss, peak(&seen.rows))));
         }
         values.extend(self.vibration(&seen.rows).into_iter().flatten());
         values.extend(self.rest(seen, run));
