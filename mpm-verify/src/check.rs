@@ -88,13 +88,11 @@ impl Finding {
         }
     }
 
-    /// value ≤ bound.
     pub(crate) fn at_most(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
         let holds = Some(value <= bound);
         Self { value: Some(value), tolerance: Some(bound), holds, ..Self::not_applicable(metric, source) }
     }
 
-    /// value > bound.
     pub(crate) fn above(metric: impl Into<String>, value: f64, bound: f64, source: impl Into<String>) -> Self {
         Self { holds: Some(value > bound), ..Self::at_most(metric, value, bound, source) }
     }

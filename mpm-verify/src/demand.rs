@@ -143,12 +143,10 @@ impl<P: ParameterSet> Demand<P> {
             .when(move |run| known(run).is_some())
     }
 
-    /// quantity ≤ bound.
     pub(crate) fn at_most(quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self::new(quantity.into(), Bound::AtMost(Box::new(bound)))
     }
 
-    /// quantity > bound.
     pub(crate) fn above(quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         Self::new(quantity.into(), Bound::Above(Box::new(bound)))
     }
@@ -264,7 +262,6 @@ impl<P: ParameterSet> CheckOf<P> {
         self.each([Demand::at_most(quantity, bound)])
     }
 
-    /// quantity > bound.
     pub(crate) fn above(self, quantity: impl Into<Quantity<P>>, bound: impl Fn(&Run<P>) -> f64 + Held) -> Self {
         self.each([Demand::above(quantity, bound)])
     }

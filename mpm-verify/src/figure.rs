@@ -42,25 +42,21 @@ impl<'a> Panel<'a> {
         Self { chart: Chart::new(title, labels, Vec::new()), runs: Vec::new(), last: 0 }
     }
 
-    /// On a logarithmic abscissa.
     pub(crate) fn log_x(mut self) -> Self {
         self.chart.x_scale = Scale::Log10;
         self
     }
 
-    /// On a logarithmic ordinate.
     pub(crate) fn log_y(mut self) -> Self {
         self.chart.y_scale = Scale::Log10;
         self
     }
 
-    /// With this range of the abscissa.
     pub(crate) fn x_range(mut self, from: f64, to: f64) -> Self {
         self.chart.x_range = Some((from, to));
         self
     }
 
-    /// With this range of the ordinate.
     pub(crate) fn y_range(mut self, from: f64, to: f64) -> Self {
         self.chart.y_range = Some((from, to));
         self
@@ -269,7 +265,6 @@ enum Shared {
     Columns,
 }
 
-/// Panels in one picture.
 pub(crate) struct Figure<'a> {
     name: String,
     caption: String,

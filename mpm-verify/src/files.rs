@@ -245,7 +245,6 @@ pub fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
     rows.map_err(|e| Error::file(path, e))
 }
 
-/// Rows of one type as CSV.
 pub(crate) fn rows_text<T: Serialize>(rows: impl IntoIterator<Item = T>) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     for row in rows {
@@ -254,7 +253,6 @@ pub(crate) fn rows_text<T: Serialize>(rows: impl IntoIterator<Item = T>) -> csv:
     writer.into_inner().map_err(|e| e.into_error().into())
 }
 
-/// A table as CSV.
 pub(crate) fn csv_text(header: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> csv::Result<Vec<u8>> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(header)?;

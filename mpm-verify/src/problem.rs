@@ -148,7 +148,6 @@ impl<const D: usize, P: Problem<D>> Driver<D, P> {
         Ok(Self { problem, seen, phase })
     }
 
-    /// Observations so far.
     pub(crate) fn seen(&self) -> &P::Seen {
         &self.seen
     }
@@ -279,7 +278,6 @@ impl<'a, const D: usize> Columns<'a, D> {
         Self { run, columns: Vec::new() }.axes(["x", "y", "z"], "m", |p, k| p.position[k])
     }
 
-    /// The simulation.
     pub(crate) fn run(&mut self) -> &mut dyn Simulation<D> {
         self.run
     }
@@ -324,7 +322,6 @@ impl<'a, const D: usize> Columns<'a, D> {
         self
     }
 
-    /// A field of the simulation.
     pub(crate) fn field(self, name: &'static str, unit: &'static str, field: Field) -> Self {
         let values = self.run.field(field);
         self.each(name, unit, |_, k| values[k])
@@ -341,7 +338,6 @@ impl<'a, const D: usize> Columns<'a, D> {
         self
     }
 
-    /// The columns.
     pub(crate) fn done(self) -> Vec<Column> {
         self.columns
     }

@@ -246,17 +246,14 @@ impl Record {
         self.scheme
     }
 
-    /// The basis.
     pub(crate) fn basis(&self) -> BasisName {
         self.scheme.basis()
     }
 
-    /// The locking remedy.
     pub(crate) fn remedy(&self) -> RemedyName {
         self.scheme.remedy()
     }
 
-    /// The transfer.
     pub(crate) fn transfer(&self) -> TransferName {
         self.scheme.transfer()
     }

@@ -118,12 +118,10 @@ impl Column {
         Self { title: title.into(), metric: None, cell: Cell::Run(Box::new(|_| true), Box::new(text)) }
     }
 
-    /// A number of a run.
     pub(crate) fn value(title: impl Into<String>, value: impl Fn(&Record) -> f64 + Held, format: Format) -> Self {
         Self::text(title, move |r| format.text(value(r)))
     }
 
-    /// A metric of a run.
     pub(crate) fn metric(title: impl Into<String>, metric: Metric, format: Format) -> Self {
         Self { metric: Some(metric), ..Self::value(title, move |r| r.metric(metric), format) }
     }
@@ -140,6 +138,11 @@ impl Column {
             row @ Cell::Row(_) => row,
         };
         Self { cell, ..self }
+    }
+
+    /// Restricts the column to the runs at a level.
+    pub(crate) fn at(self, level: &'static str) -> Self {
+        self.of(move |r| r.level == level)
     }
 
     /// Text of a run by itself; empty if the column needs several runs.
@@ -181,7 +184,7 @@ impl Column {
         metric: Metric,
         format: Format,
     ) -> Vec<Self> {
-        let column = |(level, title)| Self::metric(title, metric, format).of(move |r| r.level == level);
+        let column = |(level, title)| Self::metric(title, metric, format).at(level);
         levels.into_iter().map(column).collect()
     }
 
@@ -273,33 +276,27 @@ impl ResultTable {
         Self { labels: labels.to_vec(), ..self }
     }
 
-    /// Adds columns.
     pub(crate) fn columns(mut self, columns: impl IntoIterator<Item = Column>) -> Self {
         self.columns.extend(columns);
         self
     }
 
-    /// Adds a column.
     pub(crate) fn column(self, column: Column) -> Self {
         self.columns([column])
     }
 
-    /// Adds a metric of a run.
     pub(crate) fn metric(self, title: impl Into<String>, metric: Metric, format: Format) -> Self {
         self.column(Column::metric(title, metric, format))
     }
 
-    /// Adds a number of a run.
     pub(crate) fn value(self, title: impl Into<String>, value: impl Fn(&Record) -> f64 + Held, format: Format) -> Self {
         self.column(Column::value(title, value, format))
     }
 
-    /// Adds a text of a run.
     pub(crate) fn text(self, title: impl Into<String>, text: impl Fn(&Record) -> String + Held) -> Self {
         self.column(Column::text(title, text))
     }
 
-    /// Adds the processor time (s).
     pub(crate) fn cpu(self) -> Self {
         self.column(Column::cpu())
     }

@@ -155,7 +155,6 @@ impl<P> Deref for Run<'_, P> {
 }
 
 impl<'a, P: ParameterSet> Run<'a, P> {
-    /// The run of a record.
     pub(crate) fn of(record: &'a Record) -> Result<Self, Error> {
         Ok(Self { record, setup: Setup::of_record(record)? })
     }

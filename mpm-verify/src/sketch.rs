@@ -40,12 +40,10 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// A length from one point to another.
     pub(crate) fn length(from: Point, to: Point, label: &str) -> Self {
         Self::Length { from, to, label: label.to_owned() }
     }
 
-    /// Text about a point.
     pub(crate) fn note(at: Point, text: &str) -> Self {
         Self::Note { at, text: text.to_owned() }
     }
@@ -71,12 +69,10 @@ impl Sketch {
         self
     }
 
-    /// Adds a body with these corners.
     pub(crate) fn body(self, corners: impl IntoIterator<Item = Point>) -> Self {
         self.with(Shape::Body(corners.into_iter().collect()))
     }
 
-    /// Adds a disc about a point.
     pub(crate) fn disc(self, [x, y]: Point, radius: f64) -> Self {
         let angles = (0..48).map(|k| f64::from(k) / 48.0 * TAU);
         self.body(angles.map(|angle| [x + radius * angle.cos(), y + radius * angle.sin()]))
@@ -103,7 +99,6 @@ impl Sketch {
         at.fold(self, |sketch, x| sketch.load([x, from], [x, to]))
     }
 
-    /// Adds a length from one point to another.
     pub(crate) fn length(self, from: Point, to: Point, label: &str) -> Self {
         self.with(Shape::length(from, to, label))
     }
@@ -113,7 +108,6 @@ impl Sketch {
         self.with(Shape::Probe { at, label: label.to_owned() })
     }
 
-    /// Adds text about a point.
     pub(crate) fn note(self, at: Point, text: &str) -> Self {
         self.with(Shape::note(at, text))
     }

@@ -19,7 +19,6 @@ impl Sheet {
         Self { head: head.into_iter().map(Into::into).collect(), rows: Vec::new() }
     }
 
-    /// With rows.
     pub(crate) fn with(mut self, rows: impl IntoIterator<Item = Vec<String>>) -> Self {
         self.rows.extend(rows);
         self
@@ -32,7 +31,6 @@ impl Sheet {
         Self::new(column(0)).with((1..self.head.len()).map(column))
     }
 
-    /// In Markdown.
     pub(crate) fn markdown(&self) -> String {
         let line = |cells: &Vec<String>| {
             let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|")).collect();
@@ -123,7 +121,6 @@ impl Table {
         if read(path, TABLE)? == own { Ok(table) } else { Err(Error::file(path, OTHER_LAYOUT)) }
     }
 
-    /// Number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.columns.first().map_or(0, Vec::len)
     }

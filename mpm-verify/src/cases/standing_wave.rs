@@ -170,7 +170,7 @@ fn periods(name: &str, labels: &[Label], shows: fn(&Record) -> bool) -> ResultTa
         ];
         shown.map(|(title, metric, format)| {
             let title = format!("{}: {title}", level.replace('n', "n = "));
-            Column::metric(title, metric, format).of(move |r| r.level == level)
+            Column::metric(title, metric, format).at(level)
         })
     };
     ResultTable::new(name, shows, labels, ["n8", "n16"].into_iter().flat_map(of_level))

@@ -334,15 +334,11 @@ fn steps_slow(records: &[Record]) -> Vec<Finding> {
         let of_rule = |r: &Run<()>| slowed(r, frequency(&r.values));
         let expected = of_rule(r) / of_rule(finest);
         let (scheme, level, set) = (r.scheme, &r.level, r.set.join(" "));
-        (r.dt() > finest.dt()).then(|| {
-            Finding::within(
-                format!("frequency of {scheme} {level} {set} over that of the shortest steps"),
-                r.metric(FREQUENCY_RATIO) / finest.metric(FREQUENCY_RATIO),
-                expected,
-                resolution(r).powi(2) * (1.0 - expected) + READING,
-                "cells change the frequency by ½ (kh)² at most, and its square slows",
-            )
-        })
+        let about = format!("frequency of {scheme} {level} {set} over that of the shortest steps");
+        let ratio = r.metric(FREQUENCY_RATIO) / finest.metric(FREQUENCY_RATIO);
+        let tolerance = resolution(r).powi(2) * (1.0 - expected) + READING;
+        let why = "cells change the frequency by ½ (kh)² at most, and its square slows";
+        (r.dt() > finest.dt()).then(|| Finding::within(about, ratio, expected, tolerance, why))
     });
     found.collect()
 }

@@ -125,7 +125,6 @@ impl Command {
         }
     }
 
-    /// Executes the command.
     pub(crate) fn execute(self) -> Result<ExitCode, Error> {
         match self {
             Self::List(command) => command.execute(),
@@ -177,7 +176,6 @@ fn case() -> impl TypedValueParser<Value = &'static Case> {
     PossibleValuesParser::new(names).try_map(|name| cases::find(&name))
 }
 
-/// The cases that score other codes.
 fn scored_cases() -> PossibleValuesParser {
     PossibleValuesParser::new(cases::scored().map(|(case, _)| case.name))
 }

@@ -143,7 +143,6 @@ impl<'a> Page<'a> {
     }
 }
 
-/// The corners of a frame.
 pub(super) fn corners([left, top, right, bottom]: Frame) -> [Point; 4] {
     [(left, top), (right, top), (right, bottom), (left, bottom)]
 }

@@ -59,7 +59,6 @@ impl Sheet {
         }
     }
 
-    /// The box of a panel.
     pub(super) fn frame(&self, k: usize) -> Frame {
         let (row, column) = ((k / self.columns) as f64, (k % self.columns) as f64);
         let (left, top) = (self.start.0 + column * self.pitch.0, self.start.1 + row * self.pitch.1);

@@ -70,7 +70,6 @@ impl Panel {
     }
 }
 
-/// Panels side by side.
 pub(crate) struct Panels(Vec<Panel>);
 
 impl Panels {

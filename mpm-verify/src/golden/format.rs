@@ -165,7 +165,6 @@ impl Golden {
         self.runs.iter().flat_map(|run| run.columns.iter().map(move |c| (&*run.name, c)))
     }
 
-    /// The goldens of a run.
     pub(crate) fn run(&self, name: &str) -> Option<&Run> {
         self.runs.iter().find(|run| run.name == name)
     }
@@ -201,7 +200,6 @@ impl Golden {
         self.blessings.drain(..surplus);
     }
 
-    /// The file.
     fn text(&self) -> serde_json::Result<String> {
         let blessings = lines(&self.blessings)?;
         let runs = self.runs.iter().map(|run| {

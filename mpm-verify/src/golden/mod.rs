@@ -43,7 +43,6 @@ const PAIRS: &str = "work/particle_node_pairs";
 /// The count that stands for the cost of a run by Newton's method.
 const NONZEROS: &str = "work/nonzeros";
 
-/// File of the goldens of a case.
 pub(crate) fn file(root: &Path, case: &str) -> PathBuf {
     root.join(format!("{case}.json"))
 }

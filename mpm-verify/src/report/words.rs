@@ -16,7 +16,6 @@ pub(super) fn made_by(study: &CaseStudy) -> [String; 3] {
         .map(|known| known.unwrap_or_else(|| "–".to_owned()))
 }
 
-/// Name of a kind of check.
 pub(super) fn kind(kind: Kind) -> &'static str {
     match kind {
         Kind::Truth => "TRUTH",
@@ -38,7 +37,6 @@ pub(super) fn shown(outcome: Outcome) -> [&'static str; 3] {
     }
 }
 
-/// Its words.
 pub(super) fn outcome(outcome: Outcome) -> &'static str {
     shown(outcome)[1]
 }
@@ -46,7 +44,6 @@ pub(super) fn outcome(outcome: Outcome) -> &'static str {
 /// All outcomes, in the order of counts.
 pub(super) const OUTCOMES: [Outcome; 4] = [Outcome::Right, Outcome::WrongAsKnown, Outcome::NotJudged, Outcome::Failed];
 
-/// A run in words.
 pub(super) fn name(record: &Record) -> String {
     let set = record.set.iter().map(|assignment| format!(" {assignment}"));
     format!("{} {}{}", record.scheme(), record.level, set.collect::<String>())

@@ -34,7 +34,6 @@ const KINDS: [Kind; 10] = [
     ("UInt8 unsigned_char", 1, |b| f64::from(b[0])),
 ];
 
-/// The kind of a name.
 pub(super) fn kind(name: &str) -> Result<&'static Kind, String> {
     let known = KINDS.iter().find(|(names, ..)| names.split(' ').any(|own| own.eq_ignore_ascii_case(name)));
     known.ok_or_else(|| format!("type {name:?}"))

@@ -174,7 +174,6 @@ impl Array {
 }
 
 impl Layout {
-    /// Reads the outermost element.
     fn read_file(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
         let is = |name: &str, value: &str| attribute(element, name).is_some_and(|v| v == value);
         if !["UnstructuredGrid", "PolyData"].iter().any(|kind| is("type", kind)) {
@@ -190,7 +189,6 @@ impl Layout {
         }
     }
 
-    /// Reads the only piece.
     fn read_piece(&mut self, element: &BytesStart<'_>) -> Result<(), String> {
         if self.points.is_some() {
             return Err("more than one piece".to_owned());
@@ -209,7 +207,6 @@ impl Layout {
         Ok(())
     }
 
-    /// A number of a header.
     fn header(&self, from: &mut impl Read) -> Result<u64, String> {
         let mut bytes = [0; 8];
         let own = &mut bytes[..if self.long_headers { 8 } else { 4 }];

@@ -188,9 +188,7 @@ fn tables() -> Vec<ResultTable> {
     // The penalty as a share of G = E/2.
     const ALPHA: Label = ("α_u", |r| format!("{}", 2.0 * Setup::<Cantilever>::number_of(r, |c| c.ghost)));
     let errors = |title: fn(&str) -> String, levels: &[(&'static str, &'static str)]| -> Vec<Column> {
-        let column = |&(level, name): &(&'static str, &'static str)| {
-            Column::text(title(name), error).of(move |r| r.level == level)
-        };
+        let column = |&(level, name): &(&'static str, &'static str)| Column::text(title(name), error).at(level);
         levels.iter().map(column).collect()
     };
     let steps = [5.0, 10.0, 20.0, 40.0, 80.0, 160.0].map(|steps| {

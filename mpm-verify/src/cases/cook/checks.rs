@@ -422,13 +422,10 @@ fn error_falls(records: &[Record]) -> Vec<Finding> {
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0].max(REST_NOISE));
         // A run that broke down has no error, and must not be lost among the others.
         let worst = if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(f64::NEG_INFINITY, f64::max) };
-        let levels = errors.len();
-        Finding::at_most(
-            format!("mid-edge error of {scheme} over {levels} levels, largest ratio"),
-            worst,
-            1.0,
-            "a consistent scheme converges; errors below 0.2 % count as that, since rest admits 0.1 % of either run",
-        )
+        let about = format!("mid-edge error of {scheme} over {} levels, largest ratio", errors.len());
+        let why =
+            "a consistent scheme converges; errors below 0.2 % count as that, since rest admits 0.1 % of either run";
+        Finding::at_most(about, worst, 1.0, why)
     };
     ladders.into_iter().map(worst).collect()
 }

@@ -231,7 +231,7 @@ fn tables() -> Vec<ResultTable> {
     // Where no run has the case's own time step one with another stands in.
     let is_shown = |r: &Record| is_flip(r) && (r.is_default() || differs_in_step(r));
     let over_levels = |what: &str, text: fn(&Record) -> String| {
-        LEVELS.map(|(level, _, title)| Column::text(format!("{what}, {title}"), text).of(move |r| r.level == level))
+        LEVELS.map(|(level, _, title)| Column::text(format!("{what}, {title}"), text).at(level))
     };
     let noise = |r: &Record| fixed(2).text(r.metric(CHECKERBOARD_RATIO));
 
@@ -280,7 +280,7 @@ fn tables() -> Vec<ResultTable> {
             .columns(over_levels("mid-edge error of the load at its place", |r| {
                 percent(2).text(checks::mid_edge_error(r))
             }))
-            .column(Column::text("checkerboard, h = 1 m", noise).of(|r| r.level == "h1"))
+            .column(Column::text("checkerboard, h = 1 m", noise).at("h1"))
             .columns(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s))),
         // Effect of a held rim, of a single step and of a larger load.
         ResultTable::of("cook-rim", |r| is_static(r) && r.level == "h1")

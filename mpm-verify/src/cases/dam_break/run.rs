@@ -55,13 +55,6 @@ impl Dam {
         self.setup.start == Rest::GravityStage
     }
 
-    /// The water behind the gate: exactly at rest, or without weight yet.
-    fn behind_the_gate(&self) -> Begun<2> {
-        let (rise, damping) = if self.is_staged() { (RISE, DAMPING) } else { (0.0, 0.0) };
-        let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
-        solver(self.setup.scheme, scene, self.settings(damping)?)
-    }
-
     pub(super) fn released(&self) -> Begun<2> {
         solver(self.setup.scheme, self.tank(0.0)?, self.settings(0.0)?)
     }
@@ -243,7 +236,13 @@ impl Problem<2> for Dam {
     }
 
     fn begin(&self, seen: &Observed) -> Begun<2> {
-        if seen.free { self.released() } else { self.behind_the_gate() }
+        if seen.free {
+            return self.released();
+        }
+        // Behind the gate: exactly at rest, or without weight yet.
+        let (rise, damping) = if self.is_staged() { (RISE, DAMPING) } else { (0.0, 0.0) };
+        let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
+        solver(self.setup.scheme, scene, self.settings(damping)?)
     }
 
     fn row(&self, seen: &mut Observed, phase: &mut Phase<2>) -> Result<Row, Fault> {

@@ -293,7 +293,7 @@ fn stands(r: &Record) -> String {
 
 fn tables() -> Vec<ResultTable> {
     let columns = [("h0.1", "h = 0.1 m"), ("h0.05", "0.05 m"), ("h0.025", "0.025 m")]
-        .map(|(level, title)| Column::text(title, stands).of(move |r| r.level == level));
+        .map(|(level, title)| Column::text(title, stands).at(level));
     vec![
         // Which slope has an equilibrium.
         ResultTable::new("excavation-equilibria", is_static, &[SCHEME, CHANGED], columns),

@@ -99,11 +99,9 @@ fn plan() -> Plan {
 /// Errors relative to the motion over the cells, and the error of the mean stress, of runs that change `set`.
 fn over_cells(name: &str, set: &'static str) -> ResultTable {
     let levels = ["n8", "n16", "n32"];
-    let errors = levels.map(|level| {
-        Column::value(format!("error of u, {level}"), tables::relative_error, share(2)).of(move |r| r.level == level)
-    });
+    let error = |level| Column::value(format!("error of u, {level}"), tables::relative_error, share(2)).at(level);
     let titled = levels.map(|level| (level, format!("of σ_m (Pa), {level}")));
-    let columns = errors.into_iter().chain(Column::levels(titled, MEAN_STRESS_L2, SHORT));
+    let columns = levels.map(error).into_iter().chain(Column::levels(titled, MEAN_STRESS_L2, SHORT));
     ResultTable::new(name, move |r| tables::changes(r, set), &[SCHEME], columns)
 }
 

@@ -235,8 +235,7 @@ fn tables() -> Vec<ResultTable> {
         ("n128", "rate of loss", LOSS_RATE_ERROR, percent(1)),
         ("n256", "256 cells", LOSS_RATE_ERROR, percent(1)),
     ];
-    let of_viscous = of_viscous
-        .map(|(level, title, metric, format)| Column::metric(title, metric, format).of(move |r| r.level == level));
+    let of_viscous = of_viscous.map(|(level, title, metric, format)| Column::metric(title, metric, format).at(level));
     let is_viscous = |r: &Record| {
         r.changes_none_but(&["mach", "linear_viscosity", "quadratic_viscosity"])
             && Setup::<Shock>::number_of(r, |s| s.quadratic_viscosity) > 0.0

@@ -147,12 +147,8 @@ fn converges(records: &[Record]) -> Vec<Finding> {
             let (coarse, fine) = (pair[0], pair[1]);
             let off = |r: &Run<Stability>| (r.metric(STRENGTH_REDUCTION_FACTOR) - r.factor(STABILITY.0)).abs();
             let known_to = fine.resolution() + fine.factor(STABILITY.2 - STABILITY.0);
-            found.push(Finding::at_most(
-                STRENGTH_REDUCTION_FACTOR,
-                off(fine),
-                off(coarse).max(known_to),
-                format!("{scheme}: {} against {}", fine.level, coarse.level),
-            ));
+            let levels = format!("{scheme}: {} against {}", fine.level, coarse.level);
+            found.push(Finding::at_most(STRENGTH_REDUCTION_FACTOR, off(fine), off(coarse).max(known_to), levels));
         }
     }
     found
@@ -168,11 +164,9 @@ fn tables() -> Vec<ResultTable> {
         format!("{factor:.3} ({stands:.3} … {fails:.3})")
     };
     let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
-    let of_level = levels.map(|(level, title)| Column::text(title, bounds).of(move |r| r.level == level));
-    let cpu = levels.map(|(level, title)| {
-        let text = |r: &Record| SHORT.text(r.time.cpu_s);
-        Column::text(format!("CPU (s), {title}"), text).of(move |r| r.level == level)
-    });
+    let of_level = levels.map(|(level, title)| Column::text(title, bounds).at(level));
+    let seconds = |title: &str| Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, SHORT);
+    let cpu = levels.map(|(level, title)| seconds(title).at(level));
     let is_main = |r: &Record| r.is_default() && is_flip(r) && r.level == "h0.2";
     vec![
         ResultTable::by_remedy("slope", &REMEDIES, is_main, |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR))),

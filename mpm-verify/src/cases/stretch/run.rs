@@ -116,12 +116,6 @@ impl Stretching {
         self.places().iter().map(|x| x * stretch).collect()
     }
 
-    /// The first stretch at which the exact places leave neighbours without a common node.
-    fn predicted_parting(&self) -> Option<f64> {
-        let lattice = self.lattice();
-        self.stretches(SCAN).find(|stretch| lattice.parted(self.places_at(*stretch)))
-    }
-
     /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
     fn unstable(&self) -> Option<f64> {
         // Slopes that jump have a curvature somewhere, and none elsewhere; in the plane nothing is foretold.
@@ -251,9 +245,9 @@ impl<const D: usize> Problem<D> for Stretching {
 
     fn metrics(&self, seen: &Observed, _: &mut Phase<D>) -> Vec<(Metric, f64)> {
         let unstable = self.unstable();
-        let parting = self.predicted_parting();
-        let end = unstable.or(parting);
-        let end = end.unwrap_or(self.setup.end);
+        // Where the exact places leave neighbours without a common node.
+        let parting = self.stretches(SCAN).find(|s| self.lattice().parted(self.places_at(*s)));
+        let end = unstable.or(parting).unwrap_or(self.setup.end);
         let predicted = self.predicted_noise(end);
         let unstable = unstable.map(|s| s * (1.0 - SWING * predicted));
         let end = unstable.unwrap_or(end);

@@ -214,7 +214,7 @@ fn tables() -> Vec<ResultTable> {
     };
     let of_limit = LEVELS.map(|(level, n)| {
         let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
-        Column::text(format!("q/Prandtl's, B/h = {n}"), over).of(move |r| r.level == level)
+        Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
     let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";

@@ -4,7 +4,6 @@ use super::{Block, Cell, Document, Row, Shown, Span, Table, Text};
 use crate::table::Sheet;
 
 impl Document {
-    /// In Markdown.
     pub(in crate::report) fn markdown(&self) -> String {
         let blocks: Vec<String> = self.blocks.iter().map(Block::markdown).collect();
         blocks.join("\n")

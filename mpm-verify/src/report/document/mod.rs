@@ -68,7 +68,6 @@ impl Text {
         Self::default().span("image", caption, file)
     }
 
-    /// The words alone.
     fn words(&self) -> String {
         self.0.iter().map(|span| &*span.text).collect()
     }
@@ -115,7 +114,6 @@ pub(super) fn prose(section: &str) -> impl Iterator<Item = Text> {
     paragraphs.map(|paragraph| Text::marked(&paragraph.replace('\n', " ")))
 }
 
-/// A cell of a table.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(super) struct Cell {
     text: Text,
@@ -138,7 +136,6 @@ impl Cell {
         Self { class: class.to_owned(), ..Self::from(text) }
     }
 
-    /// Head of a row.
     pub(super) fn head(text: impl Into<Text>) -> Self {
         Self { is_head: true, ..Self::from(text) }
     }
@@ -166,7 +163,6 @@ impl<T: IntoIterator<Item = Cell>> From<T> for Row {
     }
 }
 
-/// A table.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(super) struct Table {
     pub(super) class: &'static str,
@@ -209,7 +205,6 @@ impl Shown {
     }
 }
 
-/// A part of a document.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(tag = "is", rename_all = "kebab-case")]
 enum Block {
@@ -249,7 +244,6 @@ enum Block {
     },
 }
 
-/// A document.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(super) struct Document {
     blocks: Vec<Block>,
