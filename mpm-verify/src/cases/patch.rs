@@ -194,14 +194,9 @@ impl Moving {
         let transfers = [TransferName::Apic, TransferName::Xpic2];
         let everywhere = transfers.contains(&self.setup.transfer()) || self.setup.strain == 0.0;
         let filters = self.setup.transfer() == TransferName::Xpic2;
-        let line = filters.then(|| {
-            filtered(
-                self.setup.basis(),
-                [SIDE / self.setup.h, self.setup.ppc_per_direction as f64, self.setup.h],
-                run.work().steps,
-            )
-        });
-        let size = self.setup.h / self.setup.ppc_per_direction as f64;
+        let (h, per_direction) = (self.setup.h, self.setup.ppc_per_direction as f64);
+        let line = filters.then(|| filtered(self.setup.basis(), [SIDE / h, per_direction, h], run.work().steps));
+        let size = h / per_direction;
         let p = run.particles();
         let mut pairs: [Vec<(f64, f64)>; 3] = Default::default();
         let mut put = |which: usize, found: f64, exact: f64| pairs[which].push((found - exact, exact));

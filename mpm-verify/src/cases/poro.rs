@@ -37,11 +37,8 @@ pub(super) fn topmost(h: f64) -> impl Fn(&[f64; 1]) -> bool + Copy {
 
 /// Columns that are kept of particles: where they start, their water, and their stress along the first axis.
 pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
-    columns.references().field("pore_pressure", "Pa", Field::PorePressure).field("porosity", "-", Field::Porosity).each(
-        "effective_stress_xx",
-        "Pa",
-        |p, k| p.stress[k].xx,
-    )
+    let columns = columns.references().field("pore_pressure", "Pa", Field::PorePressure);
+    columns.field("porosity", "-", Field::Porosity).each("effective_stress_xx", "Pa", |p, k| p.stress[k].xx)
 }
 
 /// A column under its load.

@@ -120,11 +120,6 @@ fn charts(gallery: &mut Gallery) -> Result<(), Error> {
     let twenty = |r: &Record| is_held(r) && steps(r) == 20.0;
     panels.push(errors(gallery, "cell size (m)", |r| r.discretisation.h, twenty));
     panels.push(errors(gallery, "load steps", steps, |r| is_held(r) && r.level == "h0.05"));
-    Figure::new(
-        "figures",
-        "The paper's elements, points and linear update at h = 0.1 m, 20 load steps: mean displacement of the right side over the weight, for shares of soft stiffness (its Figure 3; without any the run stops) and numbers of particles (its Figure 4). It prints where the corner goes, (−0.38, −0.61) m. Below, what explains them: the error of the corner's u_y against the finite elements, over the cell size with 20 load steps, and over the load steps at h = 0.05 m. Serendipity elements do not converge.",
-        panels,
-    )
-    .columns(2)
-    .draw(gallery)
+    let caption = "The paper's elements, points and linear update at h = 0.1 m, 20 load steps: mean displacement of the right side over the weight, for shares of soft stiffness (its Figure 3; without any the run stops) and numbers of particles (its Figure 4). It prints where the corner goes, (−0.38, −0.61) m. Below, what explains them: the error of the corner's u_y against the finite elements, over the cell size with 20 load steps, and over the load steps at h = 0.05 m. Serendipity elements do not converge.";
+    Figure::new("figures", caption, panels).columns(2).draw(gallery)
 }

@@ -150,14 +150,13 @@ impl Problem<1> for Setup<Consolidation> {
             base: base_pressure(run) / self.whole_load(),
         };
         seen.rows.push(at);
-        let water = run.water();
         Ok(row! {
             "time (s)": run.time(),
             "time_factor (-)": at.t,
             "settlement (-)": at.settlement,
             "base_pressure (-)": at.base,
-            "outflow (m)": water.map_or(f64::NAN, |w| w.outflow),
-            "imbalance (m)": water.map_or(f64::NAN, |w| w.imbalance),
+            "outflow (m)": outflow(run),
+            "imbalance (m)": run.water().map_or(f64::NAN, |w| w.imbalance),
             "newton_iterations (-)": iterations as f64,
         })
     }

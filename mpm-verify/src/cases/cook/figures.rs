@@ -32,15 +32,11 @@ fn fields(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         }
     }
     let title = basis_title(basis);
+    let caption =
+        format!("Mean normal stress at rest with {title}: standard MPM against F̄ (data: particles.csv of each run).");
     Fields::new(panels, "mean normal stress (Pa)", (-STRESS_RANGE, STRESS_RANGE))
         .titled(format!("Cook's membrane at rest, {title}"))
-        .draw(
-            runs.gallery,
-            &format!("mean-stress-{basis}"),
-            format!(
-                "Mean normal stress at rest with {title}: standard MPM against F̄ (data: particles.csv of each run)."
-            ),
-        )
+        .draw(runs.gallery, &format!("mean-stress-{basis}"), caption)
 }
 
 /// Displacement over the cell size, of the schemes that come to rest.
@@ -61,13 +57,8 @@ fn displacement(runs: &mut Exhibit) -> Result<(), Error> {
         reference.into_iter().fold(panel, Panel::level)
     };
     let both = [panel("Middle of the right side", Measure::MidEdge), panel("Upper right corner", Measure::Tip)];
-    Figure::new(
-        "displacement",
-        "Vertical displacement at rest of the middle of the right side and of its upper corner, against the FEM reference.",
-        both,
-    )
-    .whole()
-    .draw(runs.gallery)
+    let caption = "Vertical displacement at rest of the middle of the right side and of its upper corner, against the FEM reference.";
+    Figure::new("displacement", caption, both).whole().draw(runs.gallery)
 }
 
 /// Approach to rest at the finest level that all remedies have run with GIMP.
@@ -83,11 +74,7 @@ fn rest(runs: &mut Exhibit) -> Result<(), Error> {
         panel("Tip", "u_y (m)", "tip_uy", &REMEDIES)?,
         panel("True against averaged Jacobian", "rms ln(J / averaged J)", "log_jacobian_gap_rms", &REMEDIES[1..])?,
     ];
-    Figure::new(
-        "rest",
-        format!("Approach to rest with GIMP at {level}: the recursive F̄ creeps and never rests, the others stop."),
-        both,
-    )
-    .whole()
-    .draw(runs.gallery)
+    let caption =
+        format!("Approach to rest with GIMP at {level}: the recursive F̄ creeps and never rests, the others stop.");
+    Figure::new("rest", caption, both).whole().draw(runs.gallery)
 }

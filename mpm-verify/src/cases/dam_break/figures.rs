@@ -98,10 +98,8 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
     }
     animate_fields(&runs.gallery.place("flow.png"), &frames, DELAY)?;
     let level = level_title(level);
-    runs.gallery.hang(
-        "flow.png",
-        format!("The flow with GIMP at {level}, a third of its speed: standard MPM, the paper's F̄, ours."),
-    );
+    let caption = format!("The flow with GIMP at {level}, a third of its speed: standard MPM, the paper's F̄, ours.");
+    runs.gallery.hang("flow.png", caption);
     Ok(())
 }
 

@@ -239,6 +239,8 @@ fn overview() -> ResultTable {
 }
 
 fn at_rest() -> ResultTable {
+    const START: Label = ("start", |r| word(r, "start", "exact").replace('-', " "));
+    const NUMBER: Label = ("CFL", |r| word(r, "cfl", "0.0567"));
     /// ρ g H (Pa); on the gate ½ H times that.
     fn pressure(r: &Record) -> f64 {
         Setup::<DamBreak>::number_of(r, |d| d.density) * GRAVITY * DEPTH
@@ -249,12 +251,7 @@ fn at_rest() -> ResultTable {
     ResultTable::of("dam-break-start", |r| {
         r.status == Status::Ok && is_flip(r) && AT_REST.iter().any(|set| r.set.join(" ") == *set)
     })
-    .by(&[
-        SCHEME,
-        CELLS,
-        ("start", |r| word(r, "start", "exact").replace('-', " ")),
-        ("CFL", |r| word(r, "cfl", "0.0567")),
-    ])
+    .by(&[SCHEME, CELLS, START, NUMBER])
     .value("force on the floor", force, percent(2))
     .value("on the gate", gate, percent(2))
     .value("pressure at the floor", floor, percent(2))

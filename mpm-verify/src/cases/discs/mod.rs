@@ -402,12 +402,8 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
         }))
     };
     let panels = [1.0, 10.0, 100.0].map(panel).into_iter().collect::<Result<Vec<_>, Error>>()?;
-    Figure::new(
-        "energy",
-        "Kinetic and stored energy over the start; the paper's Figure 6 shows its accumulated one. Newmark's rule gains while the discs touch.",
-        panels,
-    )
-    .draw(gallery)
+    let caption = "Kinetic and stored energy over the start; the paper's Figure 6 shows its accumulated one. Newmark's rule gains while the discs touch.";
+    Figure::new("energy", caption, panels).draw(gallery)
 }
 
 /// The discs pressed together: the paper's Figure 5.

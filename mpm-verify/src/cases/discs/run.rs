@@ -66,7 +66,6 @@ impl Setup<Discs> {
         let first = by_columns([along; 2], spacing).filter(|[x, y]| (x - x0).hypot(y - y0) <= RADIUS);
         let first: Vec<[f64; 2]> = first.map(|[x, y]| [x + aside, y - aside]).collect();
         let second: Vec<[f64; 2]> = first.iter().map(|[x, y]| [2.0 * MIDDLE - x, 2.0 * MIDDLE - y]).collect();
-
         [first, second].concat()
     }
 }
@@ -167,14 +166,13 @@ impl Collision {
 
     fn note(&self, seen: &mut Extremes, run: &dyn Simulation<2>, start: &Sums) {
         let sums = self.sums(run);
-        let energy = |[kinetic, other]: [f64; 2]| kinetic + other;
         let [k0, s0, a0] = start.energies;
         let [k, s, a] = sums.energies;
-        let whole = energy([k0, s0]);
-        let rise = energy([k, s]) / whole - 1.0;
+        let whole = k0 + s0;
+        let rise = (k + s) / whole - 1.0;
         seen.gain = seen.gain.max(rise);
         seen.loss = seen.loss.max(-rise);
-        seen.accumulated = seen.accumulated.max((energy([k, a - a0]) / k0 - 1.0).abs());
+        seen.accumulated = seen.accumulated.max(((k + (a - a0)) / k0 - 1.0).abs());
         seen.node_gap = seen.node_gap.max((k - run.residual().kinetic_energy) / whole);
         let change = [0, 1].map(|i| sums.momentum[i] - start.momentum[i]);
         let momentum = change[0].hypot(change[1]) / start.magnitude;

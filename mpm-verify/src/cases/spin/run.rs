@@ -96,16 +96,10 @@ impl Problem<2> for Spin {
     fn metrics(&self, seen: &Rows, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_ref();
         let (totals, p) = (run.totals(), run.particles());
-        let [spun, own, momentum, kinetic, stored, radius, angle] = [
-            "angular_momentum",
-            "own_angular_momentum",
-            "momentum",
-            "kinetic_energy",
-            "stored_energy",
-            "rms_radius",
-            "angle",
-        ]
-        .map(|name| seen.column(name));
+        let column = |name| seen.column(name);
+        let [spun, own, angle] = ["angular_momentum", "own_angular_momentum", "angle"].map(column);
+        let [momentum, kinetic, stored, radius] =
+            ["momentum", "kinetic_energy", "stored_energy", "rms_radius"].map(column);
         let rows = 0..spun.len();
         let largest = |of: &dyn Fn(usize) -> f64| rows.clone().map(of).fold(f64::NEG_INFINITY, f64::max);
         let end = spun.len() - 1;

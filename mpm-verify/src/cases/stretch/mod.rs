@@ -183,6 +183,7 @@ fn tables() -> Vec<ResultTable> {
     };
     let long = |r: &Record| Setup::<Stretch>::number_of(r, |b| b.cfl) > 0.1;
     let set: Label = ("set", |r| r.set.join(", "));
+    let steps = ResultTable::of("stretch-steps", long).by(&[set, SCHEME]);
     vec![
         ResultTable::of("stretch", Record::is_default)
             .by(&[SCHEME])
@@ -194,10 +195,6 @@ fn tables() -> Vec<ResultTable> {
             .metric("predicted", PREDICTED_NOISE, share(1)),
         ResultTable::new("crush", |r| r.set == ["end=0.05"], &[SCHEME], crushed()),
         ResultTable::new("crush-plane", |r| r.set.join(" ") == PLANE, &[SCHEME], crushed()),
-        ResultTable::of("stretch-steps", long).by(&[set, SCHEME]).metric("stops at", STOPPED_STRETCH, fixed(3)).metric(
-            "predicted",
-            PREDICTED_STOP_STRETCH,
-            fixed(3),
-        ),
+        steps.metric("stops at", STOPPED_STRETCH, fixed(3)).metric("predicted", PREDICTED_STOP_STRETCH, fixed(3)),
     ]
 }

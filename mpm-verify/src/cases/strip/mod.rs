@@ -216,6 +216,7 @@ fn tables() -> Vec<ResultTable> {
         let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
+    let uniform = ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]);
     let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
     let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
@@ -244,11 +245,7 @@ fn tables() -> Vec<ResultTable> {
             .metric("p/q least", LEAST_PRESSURE, fixed(3))
             .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
         ResultTable::new("strip-limit", is_limit, &[GIVEN, STEPS, SCHEME], of_limit),
-        ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]).metric(
-            "error of settlement",
-            UNIFORM_ERROR,
-            share(3),
-        ),
+        uniform.metric("error of settlement", UNIFORM_ERROR, share(3)),
         ResultTable::of("strip-square", |r| holds(r, |s| s.dimension == 3))
             .by(&[LOADED, WATER, SCHEME, SIZE])
             .metric("settlement/B", SETTLEMENT, fixed(6))

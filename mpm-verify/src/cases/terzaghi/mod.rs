@@ -215,12 +215,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
             })
             .styled(|_, s| Series { name: space.to_string(), dash: Dash::Dotted, ..s });
     }
-    Figure::new(
-        "figures",
-        "Pressure at the particles after one step of T = 4·10⁻⁵, c_v Δt/h² = 0.016 and 1.02, and how its overshoot fades in \
-         growing steps; the paper's Figures 5 and 6.",
-        profiles,
-    )
-    .draw(gallery)?;
+    let caption = "Pressure at the particles after one step of T = 4·10⁻⁵, c_v Δt/h² = 0.016 and 1.02, and how its overshoot fades in growing steps; the paper's Figures 5 and 6.";
+    Figure::new("figures", caption, profiles).draw(gallery)?;
     Figure::new("overshoot", "Overshoot of the first step on 20 cells, and its closed form.", [first]).draw(gallery)
 }

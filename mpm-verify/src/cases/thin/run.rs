@@ -69,13 +69,9 @@ impl Problem<2> for Swing {
     fn begin(&self, _: &Rows) -> Begun<2> {
         let h = self.setup.h;
         let cells = |length: f64| (length / h).round() as usize;
-        let grid = Grid::new(
-            h,
-            [
-                Axis::bounded(0.0, cells(HALF) + ROOM, (Side::Wall, Side::Open)),
-                Axis::open(-h * ROOM as f64, cells(DEPTH) + 2 * ROOM),
-            ],
-        )?;
+        let along = Axis::bounded(0.0, cells(HALF) + ROOM, (Side::Wall, Side::Open));
+        let up = Axis::open(-h * ROOM as f64, cells(DEPTH) + 2 * ROOM);
+        let grid = Grid::new(h, [along, up])?;
         let (spacing, foot) = (self.setup.pitch(), h * self.setup.shift);
         let counts = [HALF, DEPTH].map(|l| (l / spacing).round() as usize);
         let places = by_rows(counts, spacing).map(|[x, y]| [x, foot + y]);
