@@ -10,10 +10,9 @@ const MOVED_Y: Asked = Asked::particle("uy", "m", "displacement along y under th
 const STRESS: Asked = Asked::particle("stress_xx", "Pa", "Cauchy stress σ_xx under the whole weight, tension positive");
 
 /// The edge of a given result, its setup, and columns in the order of our particles.
-fn given_edge<const N: usize>(
-    given: &Given,
-    columns: [&Asked; N],
-) -> Result<(Edge, Setup<Cantilever>, [Vec<f64>; N]), Error> {
+type GivenEdge<const N: usize> = (Edge, Setup<Cantilever>, [Vec<f64>; N]);
+
+fn given_edge<const N: usize>(given: &Given, columns: [&Asked; N]) -> Result<GivenEdge<N>, Error> {
     let setup = given.setup::<Cantilever>()?;
     let edge = Edge::new(&setup);
     let order = given.in_order([&START_X, &START_Y], &edge.references, setup.h / setup.points_per_direction as f64)?;
