@@ -82,11 +82,11 @@ fn snapshots(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let count = columns.len();
     let panels = (0..SHOWN.len() * count).map(|k| columns[k % count][k / count].clone()).collect();
     let of = basis_title(basis);
-    figure(panels, count).titled(format!("{of}, {}", level_title(level))).draw(
-        runs.gallery,
-        &format!("snapshots-{basis}"),
-        format!("The water with {of} in colours of its pressure: standard MPM, the paper's F̄, ours. The paper's Figure 12 (data: snapshots of each run; jets above {HEIGHT} m are cut off)."),
-    )
+    let caption = format!(
+        "The water with {of} in colours of its pressure: standard MPM, the paper's F̄, ours. The paper's Figure 12 (data: snapshots of each run; jets above {HEIGHT} m are cut off)."
+    );
+    let figure = figure(panels, count).titled(format!("{of}, {}", level_title(level)));
+    figure.draw(runs.gallery, &format!("snapshots-{basis}"), caption)
 }
 
 fn animation(runs: &mut Exhibit) -> Result<(), Error> {
@@ -128,14 +128,13 @@ fn flow(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         by_level.push(beside_front(panel, column));
     }
     let (of, level) = (basis_title(basis), level_title(shared));
-    Figure::new(
-        format!("flow-{basis}"),
-        format!("Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at {level}; below, fbar-consistent at all levels with one CFL number. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m."),
-        by_remedy.into_iter().chain(by_level),
-    )
-    .columns(quantities.len())
-    .share_axes_of_columns()
-    .draw(runs.gallery)
+    let caption = format!(
+        "Front, energy (kinetic, potential, stress work) and force on the wall against time with {of}: above, all remedies at {level}; below, fbar-consistent at all levels with one CFL number. The inviscid front is drawn in; water at rest in the tank has 52.2 kJ/m and presses with 8.7 kN/m."
+    );
+    Figure::new(format!("flow-{basis}"), caption, by_remedy.into_iter().chain(by_level))
+        .columns(quantities.len())
+        .share_axes_of_columns()
+        .draw(runs.gallery)
 }
 
 /// The inviscid front beside the curves of the front.

@@ -50,12 +50,8 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
         let load = record.metric(LAST_LOAD);
         panels.push(of(record, &table, format!("Cam clay, q = {:.1} kPa", 1e-3 * load), load));
     }
-    Fields::new(panels, "p/q", PRESSURES).draw(
-        gallery,
-        "pressure",
-        "Pressure at the particles over the load, of two grids, of elastic soil as the load grows and of Cam clay at its limit. \
-         The paper's Figures 10 and 11(b) (data: particles.csv and snapshots of the runs).",
-    )
+    let caption = "Pressure at the particles over the load, of two grids, of elastic soil as the load grows and of Cam clay at its limit. The paper's Figures 10 and 11(b) (data: particles.csv and snapshots of the runs).";
+    Fields::new(panels, "p/q", PRESSURES).draw(gallery, "pressure", caption)
 }
 
 /// Where clay has yielded: Figure 11(a).
@@ -65,11 +61,8 @@ fn plastic_strain(gallery: &mut Gallery) -> Result<(), Error> {
         let table = gallery.table(record, "particles.csv")?;
         panels.push(panel(record, &table, "Cam clay at its limit".to_owned(), "plastic_strain", f64::log10));
     }
-    Fields::new(panels, "log₁₀ of the equivalent plastic strain", STRAINS).draw(
-        gallery,
-        "plastic-strain",
-        "Equivalent plastic strain of Cam clay at its limit, of two grids. The paper's Figure 11(a) (data: particles.csv of the run).",
-    )
+    let caption = "Equivalent plastic strain of Cam clay at its limit, of two grids. The paper's Figure 11(a) (data: particles.csv of the run).";
+    Fields::new(panels, "log₁₀ of the equivalent plastic strain", STRAINS).draw(gallery, "plastic-strain", caption)
 }
 
 /// Load over settlement: of elastic soil and of clay in several steps, and of undrained clay under load and settlement.

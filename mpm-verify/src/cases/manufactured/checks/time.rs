@@ -32,10 +32,10 @@ fn of_truth(about: String, last: &Record, order: f64) -> Option<Finding> {
         Some(RuleName::Midpoint) if lumped == 0.0 => {
             Some(Finding::within(about, order, SYMMETRIC, OFF, "the midpoint rule is symmetric in time"))
         }
-        Some(RuleName::Midpoint) if lumped != 1.0 => Some(Finding::not_applicable(
-            about,
-            "a lumped share takes energy in proportion to Δt: between first and second order",
-        )),
+        Some(RuleName::Midpoint) if lumped != 1.0 => {
+            let why = "a lumped share takes energy in proportion to Δt: between first and second order";
+            Some(Finding::not_applicable(about, why))
+        }
         Some(_) => None,
     }
 }
