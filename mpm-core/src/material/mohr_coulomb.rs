@@ -17,8 +17,8 @@ use crate::tensor::SymmetricTensor;
 use nalgebra::Matrix3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Deviators below this have no direction: their cube would be lost.
-const NOTHING: f64 = 1e-100;
+/// Deviators below this have no direction: derivatives of what is divided by their square would be lost.
+const NOTHING: f64 = 1e-60;
 
 /// A Hencky solid with friction, cohesion and dilation.
 #[derive(Debug, Clone, Copy, PartialEq)]
