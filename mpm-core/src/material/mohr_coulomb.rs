@@ -74,15 +74,14 @@ impl<T: Real> Split<T> {
         let (j2, j3) = (number(0.5) * square.trace(), whole.determinant());
         let size = (number(1.0 / 3.0) * j2).sqrt().at_least(NOTHING);
         let cube = j3.abs() / (size * size * size);
-        // Newton's steps from the chord, which is off by 0.014 at most: by 10⁻⁴, 10⁻⁸ and rounding.
+        // Newton's steps from the chord, which is off by 0.014 at most: by 10⁻⁴, 10⁻⁸ and rounding, as the slopes are.
         let chord = 3.0_f64.sqrt();
         let mut x = number(0.5 * (2.0 - chord)) * cube + number(chord);
-        let step = |x: T| (x * (x * x - number(3.0)) - cube) / (number(3.0) * (number(1.0) - x * x));
         for _ in 0..3 {
-            x += step(x);
+            x += (x * (x * x - number(3.0)) - cube) / (number(3.0) * (number(1.0) - x * x));
         }
-        let greatest = size * x.with_slopes_of(step(x));
-        let single = j3.if_positive(greatest, -greatest);
+        let length = size * x;
+        let single = j3.if_positive(length, -length);
         let weight = number(1.5) / (number(3.0) * single * single - j2);
         let square = square.deviator();
         let mut split = Self { whole, square, weight, single, apart: T::default() };
@@ -127,7 +126,7 @@ impl Law for MohrCoulomb {
         let inverse_jacobian = (-(volume + state.plastic_volume)).exp();
         let mut mean = number(bulk_modulus) * volume;
         let beyond_tip = number(2.0) * (number(friction) * mean - number(self.cohesion));
-        // The cone through the outer edges of the pyramid and beyond.
+        // Nothing yields within the cone that touches all planes.
         let cone = shear_modulus * (2.0 + 2.0 / 3.0 * friction * friction).sqrt();
         if (number(cone) * deviator.norm() + beyond_tip).any_positive() {
             let greater = |a: T, b: T| (a - b).if_positive(a, b);
@@ -149,23 +148,24 @@ impl Law for MohrCoulomb {
             let to_plane = flow_to([1.0 + friction, 1.0 - friction]);
             let to_edge = greater(flow_to([1.5 + 0.5 * friction, 0.0]), flow_to([0.0, 1.5 - 0.5 * friction]));
             let to_axis = greater(greatest * number(1.0 / rate), least * number(1.0 / rate_of_least));
-            let flow = -greater(-greater(to_plane, to_edge).at_least(0.0), -to_axis);
-            let [onward, onward_of_least] = [greatest - number(rate) * flow, least - number(rate_of_least) * flow];
-            // Where the middle one would be passed, both go on together.
-            let greatest = greater(onward, half * onward_of_least);
-            let least = greater(onward_of_least, half * onward);
+            let flow = greater(to_plane, to_edge).at_least(0.0);
+            let flow = (flow - to_axis).if_positive(to_axis, flow);
+            let least = least - number(rate_of_least) * flow;
+            // Where the greatest would pass the middle one, both go on together. Where the least would, it is not the
+            // single one, and nothing is left of what is apart.
+            let greatest = greater(greatest - number(rate) * flow, half * least);
             let [single, opposite] = swapped([greatest, least]);
             let left = (opposite - half * single).at_least(0.0) / split.apart.at_least(f64::MIN_POSITIVE);
-            let gone = flow.if_positive(number(1.0) - left, number(0.0));
+            let nearer = flow.if_positive(left - number(1.0), number(0.0));
             let single = split.single.if_positive(single, -single);
-            let lost = split.combined(split.single - single, gone);
+            let change = split.combined(single - split.single, nearer);
             let within = (mean - number(dilation * bulk_modulus) * flow).at_most(self.tip());
             let plastic_volume = (mean - within) * number(1.0 / bulk_modulus);
-            let back = lost.scale_add_identity(number(-1.0), number(-2.0 / 3.0) * plastic_volume);
+            let back = change.scale_add_identity(number(1.0), number(-2.0 / 3.0) * plastic_volume);
             after.elastic = after.elastic.times_commuting(&back.exp());
             after.plastic_volume += plastic_volume;
             after.plastic_strain += number(6.0_f64.sqrt().recip()) * back.norm();
-            (deviator, mean) = (deviator.add(&lost.scale_add_identity(number(-1.0), T::default())), within);
+            (deviator, mean) = (deviator.add(&change), within);
         }
         (deviator.scale_add_identity(number(shear_modulus) * inverse_jacobian, mean * inverse_jacobian), after)
     }

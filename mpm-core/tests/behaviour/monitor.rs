@@ -1,4 +1,4 @@
-//! What every run monitors.
+//! Quantities that every run monitors.
 
 use mpm_core::material::{Law, NeoHookean};
 use mpm_core::{Particles, Totals};
