@@ -94,9 +94,8 @@ impl<T: Real> Split<T> {
     fn combined(&self, single: T, apart: T) -> SymmetricTensor<T> {
         let of_square = self.weight * (single - apart * self.single);
         let of_whole = apart + of_square * self.single;
-        let [whole, square] =
-            [(&self.whole, of_whole), (&self.square, of_square)].map(|(a, by)| a.scale_add_identity(by, T::default()));
-        whole.add(&square)
+        let whole = self.whole.scale_add_identity(of_whole, T::default());
+        whole.add(&self.square.scale_add_identity(of_square, T::default()))
     }
 }
 
