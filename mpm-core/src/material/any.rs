@@ -1,7 +1,7 @@
 //! A law as bodies hold it: chosen at run time, with the states of its particles as rows of numbers.
 
 use super::{
-    CamClay, DruckerPrager, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, Law, NeoHookean,
+    CamClay, DruckerPrager, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, Law, MohrCoulomb, NeoHookean,
     NewtonianFluid, State, StateOf, Viscous,
 };
 use crate::number::{Dual, EIGHT, Eight, Real};
@@ -95,6 +95,7 @@ shared!(
     Hypoelastic,
     HypoelasticJ2,
     ImprovedHencky,
+    MohrCoulomb,
     NeoHookean,
     NewtonianFluid
 );

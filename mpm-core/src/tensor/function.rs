@@ -353,8 +353,9 @@ impl<T: Real> SymmetricTensor<T> {
     }
 
     /// The sum.
+    #[must_use]
     #[inline]
-    fn add(&self, other: &Self) -> Self {
+    pub(crate) fn add(&self, other: &Self) -> Self {
         Self {
             xx: self.xx + other.xx,
             yy: self.yy + other.yy,

@@ -2,7 +2,7 @@
 
 use mpm_core::material::{
     Answers, CamClay, DruckerPrager, Hencky, HenckyJ2, Hypoelastic, HypoelasticJ2, ImprovedHencky, JaumannUpdate, Law,
-    Matched, NeoHookean, NewtonianFluid, State, Strength, Viscous, shared,
+    Matched, MohrCoulomb, NeoHookean, NewtonianFluid, State, Strength, Viscous, shared,
 };
 use mpm_core::monitor::Accumulated;
 use mpm_core::number::Dual;
@@ -11,6 +11,7 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 mod drucker_prager;
+mod mohr_coulomb;
 mod tangent;
 
 /// Deformation gradients with stretches near one and a positive determinant.
@@ -238,6 +239,8 @@ every_law_must!(
     strong_ground_with_friction,
     DruckerPrager::new((70.0, 0.4), 1e9, [0.5, 0.3], Matched::Compression).unwrap()
 );
+
+every_law_must!(strong_ground_of_six_planes, MohrCoulomb::new((70.0, 0.4), 1e9, [0.5, 0.3]).unwrap());
 
 every_law_must!(hencky_solid, Hencky::new(70.0, 0.4).unwrap());
 

@@ -110,3 +110,32 @@ fn a_moving_plate_takes_a_block_along() {
     assert!((shift(&solver, 1) - moved[1]).abs() < swing);
     assert!(least(&gaps(&solver, &face, &moved)) > 0.0);
 }
+
+#[test]
+fn a_stick_is_a_spring() {
+    let friction = Friction::new(0.5, 100.0).unwrap();
+    let mut stretch = [0.03, 0.0, -0.04];
+    assert_eq!(friction.force(&mut stretch, 10.1), [-3.0, 0.0, 4.0]);
+    assert_eq!(stretch, [0.03, 0.0, -0.04]);
+}
+
+#[test]
+fn a_slip_returns_along_a_radius_to_coulombs_cone() {
+    let friction = Friction::new(0.5, 100.0).unwrap();
+    let mut stretch = [0.3, 0.0, -0.4];
+    let force = friction.force(&mut stretch, 2.0);
+    for (f, sought) in force.iter().zip([-0.6, 0.0, 0.8]) {
+        assert!((f - sought).abs() < 1e-15);
+    }
+    assert!((stretch[0] - 0.006).abs() < 1e-17 && (stretch[2] + 0.008).abs() < 1e-17);
+    // Stretch that was given up does not come back.
+    assert_eq!(friction.force(&mut stretch, 20.0), force);
+}
+
+#[test]
+fn bad_friction_is_refused() {
+    assert!(Friction::new(-0.1, 1.0).is_err());
+    assert!(Friction::new(f64::INFINITY, 1.0).is_err());
+    assert!(Friction::new(0.1, 0.0).is_err());
+    assert!(Friction::rough(f64::NAN).is_err());
+}

@@ -198,6 +198,44 @@ fn of_friction_along_axes_and_in_planes() {
     }
 }
 
+fn pyramids() -> [MohrCoulomb; 3] {
+    [[0.5, 0.5], [0.5, 0.1], [0.8, 0.0]].map(|angles| MohrCoulomb::new((100.0, 0.3), 0.3, angles).unwrap())
+}
+
+/// Which of the differences between neighbouring principal stresses vanish: where the return changes from a plane to an
+/// edge, or to the tip, slopes jump.
+fn meeting<M: Law>(law: &M, delta_f: &Matrix3<f64>, state: &M::State) -> [bool; 2] {
+    let principal = law.response(delta_f, DT, state).0.to_matrix().symmetric_eigenvalues();
+    let mut sorted: [f64; 3] = principal.into();
+    sorted.sort_by(f64::total_cmp);
+    [sorted[1] - sorted[0], sorted[2] - sorted[1]].map(|apart| apart < 1e-9)
+}
+
+/// Tangent of ground within a pyramid that flows in the second deformation, as that changes to all sides, to the same
+/// part of it; which one.
+fn within_a_pyramid(law: &MohrCoulomb, first: &Matrix3<f64>, second: &Matrix3<f64>) -> Option<[bool; 2]> {
+    let before = deform(law, first).1;
+    let part = meeting(law, second, &before);
+    let stays = (0..18).all(|k| {
+        let mut change = Matrix3::zeros();
+        change[k / 2] = if k % 2 == 0 { 1.5 * STEP } else { -1.5 * STEP };
+        meeting(law, &(second + change), &before) == part
+    });
+    (stays && plastic(law, first, second)).then_some(part)
+}
+
+#[test]
+fn of_a_pyramid_along_axes_and_in_planes() {
+    for law in pyramids() {
+        let pressed = Matrix3::from_diagonal(&Vector3::new(0.5, 1.2, 1.2));
+        let all = special().into_iter().chain([pressed]);
+        let parts: Vec<_> = all.filter_map(|f| within_a_pyramid(&law, &Matrix3::identity(), &f)).collect();
+        for part in [[false, false], [true, false], [false, true], [true, true]] {
+            assert!(parts.contains(&part), "{parts:?}");
+        }
+    }
+}
+
 /// Clay that yields and hardens or softens at strains of a few parts in a hundred.
 fn clays() -> [CamClay; 3] {
     let elasticity = ImprovedHencky::new(70.0, 40.0, 0.9).unwrap();
@@ -227,6 +265,12 @@ proptest! {
             prop_assume!((less > 0.1 && more > 0.1) || (less < 1e-9 && more < 1e-9));
             prop_assume!(plastic(&law, &f, &g));
         }
+    }
+
+    #[test]
+    fn of_a_pyramid(f in deformations(), g in deformations()) {
+        let parts = pyramids().map(|law| within_a_pyramid(&law, &f, &g));
+        prop_assume!(parts.iter().any(Option::is_some));
     }
 
     #[test]

@@ -37,7 +37,10 @@ impl LawForm {
             Self::NeoHookean { poisson_ratio, .. }
             | Self::Hencky { poisson_ratio, .. }
             | Self::HenckyJ2 { poisson_ratio, .. } => poisson_ratio.0 >= NEARLY,
-            Self::DruckerPrager { .. } | Self::ImprovedHencky { .. } | Self::CamClay { .. } => false,
+            Self::DruckerPrager { .. }
+            | Self::MohrCoulomb { .. }
+            | Self::ImprovedHencky { .. }
+            | Self::CamClay { .. } => false,
         }
     }
 }

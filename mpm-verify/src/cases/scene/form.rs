@@ -274,6 +274,15 @@ kinds! {
             #[serde(default)]
             matched: MatchedForm,
         },
+        MohrCoulomb {
+            young_modulus_pa: Finite,
+            poisson_ratio: Finite,
+            cohesion_pa: Finite,
+            friction_deg: Finite,
+            /// Zero.
+            #[serde(default)]
+            dilation_deg: NotNegative,
+        },
         NewtonianFluid { bulk_modulus_pa: Finite, viscosity_pa_s: Finite },
         /// The porosity is that of `water`.
         ImprovedHencky { bulk_parameter: Finite, shear_modulus_pa: Finite },

@@ -4,7 +4,8 @@ use super::fault::{Line, Source};
 use super::form::{Form, LawForm, MatchedForm, StrengthForm};
 use crate::error::Error;
 use mpm_core::material::{
-    CamClay, DruckerPrager, Hencky, HenckyJ2, ImprovedHencky, Matched, NeoHookean, NewtonianFluid, SharedLaw, Strength,
+    CamClay, DruckerPrager, Hencky, HenckyJ2, ImprovedHencky, Matched, MohrCoulomb, NeoHookean, NewtonianFluid,
+    SharedLaw, Strength,
 };
 
 /// The law of a form, in a body of the given porosity.
@@ -36,6 +37,9 @@ pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw,
             let angles = [friction_deg.0, dilation_deg.0].map(f64::to_radians);
             DruckerPrager::new((young_modulus_pa.0, poisson_ratio.0), cohesion_pa.0, angles, matched)?.into()
         }
+        LawForm::MohrCoulomb { young_modulus_pa: e, poisson_ratio: nu, cohesion_pa, friction_deg, dilation_deg } => {
+            MohrCoulomb::new((e.0, nu.0), cohesion_pa.0, [friction_deg.0, dilation_deg.0].map(f64::to_radians))?.into()
+        }
         LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => NewtonianFluid::new(k.0, mu.0)?.into(),
         LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => soaked(k.0, g.0)?.into(),
         LawForm::CamClay {
@@ -60,15 +64,22 @@ impl Source {
         let mut form: Form = self.parse()?;
         if self.weaker != 1.0 {
             let place = form.law.span();
-            let strong =
-                |law: &Line<LawForm>| matches!(law.get_ref(), LawForm::HenckyJ2 { .. } | LawForm::DruckerPrager { .. });
+            let strong = |law: &Line<LawForm>| {
+                matches!(
+                    law.get_ref(),
+                    LawForm::HenckyJ2 { .. } | LawForm::DruckerPrager { .. } | LawForm::MohrCoulomb { .. }
+                )
+            };
             if !form.laws().any(strong) {
-                return Err(self.fault(&place, "no strength to be divided: hencky-j2 and drucker-prager have one"));
+                let why = "no strength to be divided: hencky-j2, drucker-prager and mohr-coulomb have one";
+                return Err(self.fault(&place, why));
             }
             let phases = form.phases.iter_mut().filter_map(|phase| phase.as_mut().law.as_mut());
             let others = form.bodies.iter_mut().filter_map(|body| body.as_mut().law.as_mut()).map(Line::as_mut);
             for law in phases.chain([form.law.as_mut()]).chain(others) {
-                if let LawForm::DruckerPrager { cohesion_pa, friction_deg, dilation_deg, .. } = law {
+                if let LawForm::DruckerPrager { cohesion_pa, friction_deg, dilation_deg, .. }
+                | LawForm::MohrCoulomb { cohesion_pa, friction_deg, dilation_deg, .. } = law
+                {
                     cohesion_pa.0 /= self.weaker;
                     friction_deg.0 = (friction_deg.0.to_radians().tan() / self.weaker).atan().to_degrees();
                     // Ground that flows with a smaller angle of friction does not dilate more than by that.

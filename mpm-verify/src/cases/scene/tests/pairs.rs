@@ -2,7 +2,7 @@
 
 use super::*;
 
-pub(super) const LAWS: [(&str, &str); 7] = [
+pub(super) const LAWS: [(&str, &str); 8] = [
     ("neo-hookean", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
     ("hencky", "young_modulus_pa = 1e6\npoisson_ratio = 0.3"),
     ("drucker-prager", "young_modulus_pa = 1e6\npoisson_ratio = 0.3\ncohesion_pa = 1e3\nfriction_deg = 30"),
@@ -13,6 +13,7 @@ pub(super) const LAWS: [(&str, &str); 7] = [
         "cam-clay",
         "bulk_parameter = 5e4\nshear_modulus_pa = 4e5\ncritical_ratio = 1\nplastic_compressibility = 0.1\npreconsolidation_pa = 2e4\ninitial_pressure_pa = 1e4",
     ),
+    ("mohr-coulomb", "young_modulus_pa = 1e6\npoisson_ratio = 0.3\ncohesion_pa = 1e3\nfriction_deg = 30"),
 ];
 
 /// A body of two cells along each axis that begins to sag between rollers.
@@ -73,7 +74,7 @@ fn refused(law: &str, scheme: &str) -> Option<&'static str> {
     let implicit = ["quasi-static", "midpoint", "newmark"].iter().any(|rule| scheme.starts_with(rule));
     match law {
         "newtonian-fluid" if wet => Some("has no pores"),
-        "newtonian-fluid" | "drucker-prager" if implicit && !scheme.ends_with("none") => {
+        "newtonian-fluid" | "drucker-prager" | "mohr-coulomb" if implicit && !scheme.ends_with("none") => {
             Some("law without a potential")
         }
         "improved-hencky" | "cam-clay" if !wet => Some("one [water], whose porosity the law has"),

@@ -33,7 +33,7 @@ fn scene(random: &mut fastrand::Rng) -> String {
         (_, true) => format!("{basis}-{remedy}-{transfer}"),
         _ => format!("{}-{basis}-none", one(random, &["quasi-static", "newmark", "midpoint"])),
     };
-    let mut laws = pairs::LAWS[..4].to_vec();
+    let mut laws = [&pairs::LAWS[..4], &pairs::LAWS[7..]].concat();
     if explicit {
         laws.push(pairs::LAWS[4]);
     }

@@ -129,11 +129,14 @@ fn strength_with_friction_is_divided() {
     for (k0, begins) in [(0.98 * active, false), (1.02 * active, true)] {
         let own = format!("k0 = {k0}\n");
         let text = LEVEL.replace("k0 = 0.5\n", &own).replace("k0 = 0.8\n", "k0 = 1\n");
-        // Two equal stresses: the cone of triaxial compression.
-        let cone = "friction_deg = 30\nmatched = \"compression\"\n";
-        std::fs::write(&path, text.replace("friction_deg = 30\n", cone)).unwrap();
-        assert!(SceneFile::read(&path, 1.0, None).is_ok());
-        assert_eq!(SceneFile::read(&path, 2.0, None).is_ok(), begins, "{k0}");
+        // Two equal stresses: the cone of triaxial compression, or the pyramid's edge.
+        let cone = text.replace("friction_deg = 30\n", "friction_deg = 30\nmatched = \"compression\"\n");
+        let pyramid = text.replace("[law.drucker-prager]", "[law.mohr-coulomb]");
+        for ground in [cone, pyramid] {
+            std::fs::write(&path, ground).unwrap();
+            assert!(SceneFile::read(&path, 1.0, None).is_ok());
+            assert_eq!(SceneFile::read(&path, 2.0, None).is_ok(), begins, "{k0}");
+        }
     }
 }
 
