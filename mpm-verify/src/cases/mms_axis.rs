@@ -67,7 +67,7 @@ fn plan() -> Plan {
         .runs(Nightly, FOUR, &pair, "step_scaling=h2")
         .runs(Nightly, FOUR, &sound(&BASES), "amplitude=0.02")
         .runs(Nightly, FOUR, &sound(&BASES[1..]), "amplitude=0.02 ppc_per_direction=4")
-        .runs(Nightly, FOUR, &all, "dimension=1")
+        .runs(Nightly, FOUR, &pair, "dimension=1")
         .runs(Nightly, THREE, &sound(&SMOOTH), "dimension=3")
         .runs(Pr, THREE, &smooth[1..], "cfl=2")
         .runs(Nightly, FOUR, &moved, "cfl=2")

@@ -59,7 +59,6 @@ fn plan() -> Plan {
     let definite = [moved[0], moved[2]];
     let own = pairs(&two, &few);
     let splines = pairs(&[Bspline2, Bspline3], &few);
-    let pair = pairs(&two, &REMEDIES);
     let solid = pairs(&two, &[FbarRecursive, FbarConsistent]);
     // Steps, each half as long as the one before; the same with a consistent and a lumped mass.
     let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
@@ -74,7 +73,6 @@ fn plan() -> Plan {
         .runs(Nightly, FOUR, &moved, "cfl=2")
         .runs(Long, "n128", &moved, "cfl=2")
         .each(Nightly, THREE, &main_pairs(), MORE)
-        .runs(Nightly, FOUR, &pair, "step_scaling=h2")
         .runs(Nightly, FOUR, &splines, "wall=wall-line")
         .runs(Nightly, FOUR, &pairs(&BASES, &few), LARGE)
         .runs(Nightly, THREE, &solid, "dimension=3")

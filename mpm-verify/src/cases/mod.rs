@@ -6,6 +6,7 @@ use crate::foreign::Foreign;
 use std::sync::LazyLock;
 
 mod analysis;
+mod bearing;
 mod build;
 mod cantilever;
 mod checks;
@@ -61,6 +62,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
     vec![
         cook::case(),
         footing::case(),
+        bearing::case(),
         dam_break::case(),
         landslide::case(),
         landslide::plane_case(),

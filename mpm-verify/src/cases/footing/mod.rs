@@ -7,7 +7,7 @@ mod curve;
 mod figures;
 pub(super) mod foreign;
 mod reference;
-mod run;
+pub(super) mod run;
 
 use crate::cases::prelude::*;
 use crate::record::of_defaults;
@@ -128,7 +128,7 @@ pub(super) fn case() -> Case {
         .sweep(Sweep::of(PENETRATION_RATE, "penetration rate (m/s)").logarithmic())
         .watched(&["pressure_over_strength", "jacobian_max"])
         .field(FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.004), [(0.0, 2.0), (-1.5, 0.0)]))
-        .sketch(sketch())
+        .sketch(sketch([6, 6], "A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner."))
         .cost(cost)
         .own_runs(own_runs)
         .pictures(figures::draw)
@@ -205,18 +205,19 @@ fn cost(spec: &RunSpec) -> f64 {
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
 }
 
-fn sketch() -> Sketch {
-    let (extent, half) = (6.0 * WIDTH, 0.5 * WIDTH);
-    Sketch::of("A square of ground six footing widths wide and deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner.")
-        .body([[0.0, -extent], [extent, -extent], [extent, 0.0], [0.0, 0.0]])
+/// A footing on ground so many of its widths wide and deep, in words.
+pub(super) fn sketch([across, down]: [u32; 2], words: &'static str) -> Sketch {
+    let ([width, depth], half) = ([across, down].map(|n| f64::from(n) * WIDTH), 0.5 * WIDTH);
+    Sketch::of(words)
+        .body([[0.0, -depth], [width, -depth], [width, 0.0], [0.0, 0.0]])
         .body([[0.0, 0.0], [half, 0.0], [half, 0.25], [0.0, 0.25]])
-        .held([extent, -extent], [0.0, -extent])
+        .held([width, -depth], [0.0, -depth])
         .load([0.25 * WIDTH, 1.0], [0.25 * WIDTH, 0.3])
-        .length([0.0, -extent - 0.7], [extent, -extent - 0.7], "6B")
-        .length([extent + 0.5, -extent], [extent + 0.5, 0.0], "6B")
+        .length([0.0, -depth - 0.7], [width, -depth - 0.7], &format!("{across}B"))
+        .length([width + 0.5, -depth], [width + 0.5, 0.0], &format!("{down}B"))
         .note([1.6 * WIDTH, 0.45], "footing, B/2 = 0.5 m")
-        .note([-0.6, -0.5 * extent], "symmetry")
-        .note([extent - 0.6, -0.5 * extent], "roller")
+        .note([-0.6, -0.5 * depth], "symmetry")
+        .note([width - 0.6, -0.5 * depth], "roller")
 }
 
 const OF_WIDTH: Label = ("h", |r| r.level.replace('b', "B/"));

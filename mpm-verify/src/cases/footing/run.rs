@@ -8,12 +8,12 @@ use mpm_core::implicit::GHOST;
 use mpm_core::stage::smooth_stroke;
 
 /// Width B of the footing (m); its right half is simulated.
-pub(super) const WIDTH: f64 = 1.0;
+pub(in crate::cases) const WIDTH: f64 = 1.0;
 /// Cells of the grid above the surface.
 const ROOM: usize = 3;
 /// Places of constraints in the list of the scene.
-const BASE: usize = 0;
-const FOOTING: usize = 3;
+pub(in crate::cases) const BASE: usize = 0;
+pub(in crate::cases) const FOOTING: usize = 3;
 /// Reach d̂ of the barrier over the cell size.
 const REACH: f64 = 0.25;
 /// Penetration over B between two rows of the series.
@@ -47,20 +47,13 @@ impl Pace {
 }
 
 impl Setup<Footing> {
-    /// Width (m) that a footing of held nodes acts with, and its uncertainty: up to the middle between the last held node and
-    /// the first free one. Quadratic splines of open knots have their nodes in the middle of cells, the others on grid lines.
-    /// Between those splines the velocity falls from that of the footing within a cell inside of its edge to that of the free
-    /// ground two cells outside: the place is known to half a cell at either end. A barrier ends between the particles that it pushes and those
-    /// that share nodes with them, up to a cell away.
+    /// Width (m) that the footing acts with, and its uncertainty. A barrier ends between the particles that it pushes and
+    /// those that share nodes with them, up to a cell away.
     pub(super) fn effective_width(&self) -> (f64, f64) {
         if self.presses_by_barrier() {
             return (WIDTH + self.h, self.h);
         }
-        match self.basis() {
-            Bspline2 if self.wall == common::Wall::OpenKnot => (WIDTH, 0.0),
-            Linear | Gimp | BasisName::Q8 => (WIDTH + self.h, 0.0),
-            Bspline2 | Bspline3 => (WIDTH + 0.5 * self.h, 0.5 * self.h),
-        }
+        held_width(self.basis(), self.wall, self.h)
     }
 
     pub(super) fn presses_by_barrier(&self) -> bool {
@@ -134,6 +127,42 @@ impl Setup<Footing> {
             values.push((metric, value / self.undrained_strength));
         }
         values
+    }
+}
+
+/// Ground so many widths of the footing wide and deep, its base fixed, its sides on rollers.
+pub(in crate::cases) fn ground<P: ParameterSet>(
+    setup: &Setup<P>,
+    widths: [i32; 2],
+    law: SharedLaw,
+) -> Result<Scene<2>, Fault> {
+    let (h, spacing) = (setup.h, setup.pitch());
+    let [across, down] = widths.map(|widths| (f64::from(widths) * WIDTH / h).round() as usize);
+    let upward = Axis::bounded(-(down as f64) * h, down + ROOM, (Side::Wall, Side::Open));
+    let grid = Grid::new(h, [Axis::walls(0.0, across), upward])?;
+    let per_direction = setup.values.number(common::PPC_PER_DIRECTION) as usize;
+    let downward = by_columns([across, down].map(|cells| cells * per_direction), spacing);
+    let particles =
+        setup.particles_at(downward.map(|[x, y]| [x, -y]), spacing, setup.values.number(common::DENSITY))?;
+    let sides = [clamp(1, End::Lo), roller(0, End::Lo), roller(0, End::Hi)];
+    Ok(Scene::new(grid, Bodies::new(law, particles)?).constrain_all(sides))
+}
+
+/// A footing of nodes that come to a velocity (m/s) in `ramp` (s): those on and above the surface, and those of splines
+/// with nodes in the middle of cells that lie half a cell below, without which the surface would not be rigid.
+pub(in crate::cases) fn held_nodes(h: f64, velocity: [Option<f64>; 2], ramp: f64) -> RigidNodes<2> {
+    RigidNodes { extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]], velocity, ramp }
+}
+
+/// Width (m) that a footing of held nodes acts with, and its uncertainty: up to the middle between the last held node and
+/// the first free one. Quadratic splines of open knots have their nodes in the middle of cells, the others on grid lines.
+/// Between those splines the velocity falls from that of the footing within a cell inside of its edge to that of the free
+/// ground two cells outside: the place is known to half a cell at either end.
+pub(in crate::cases) fn held_width(basis: BasisName, wall: common::Wall, h: f64) -> (f64, f64) {
+    match basis {
+        Bspline2 if wall == common::Wall::OpenKnot => (WIDTH, 0.0),
+        Linear | Gimp | BasisName::Q8 => (WIDTH + h, 0.0),
+        Bspline2 | Bspline3 => (WIDTH + 0.5 * h, 0.5 * h),
     }
 }
 
@@ -211,27 +240,14 @@ impl Problem<2> for Pressing {
     }
 
     fn begin(&self, _: &Seen) -> Begun<2> {
-        let (setup, h) = (&self.setup, self.setup.h);
-        let cells = |widths: i32| (f64::from(widths) * WIDTH / h).round() as usize;
-        let (across, down) = (cells(setup.domain_width), cells(setup.domain_depth));
-        let upward = Axis::bounded(-(down as f64) * h, down + ROOM, (Side::Wall, Side::Open));
-        let grid = Grid::new(h, [Axis::walls(0.0, across), upward])?;
-        let spacing = setup.pitch();
-        let downward = by_columns([across, down].map(|cells| cells * setup.ppc_per_direction), spacing);
-        let particles = setup.particles_at(downward.map(|[x, y]| [x, -y]), spacing, setup.density)?;
-        let ground = Scene::new(grid, Bodies::new(setup.law()?, particles)?).constrain_all([
-            clamp(1, End::Lo),
-            roller(0, End::Lo),
-            roller(0, End::Hi),
-        ]);
+        let setup = &self.setup;
+        let ground = ground(setup, [setup.domain_width, setup.domain_depth], setup.law()?.into())?;
         let scene = match self.barrier {
-            // Held nodes are those on and above the surface, and those of the splines with nodes in the middle of cells
-            // that lie half a cell below, without which the surface would not be rigid.
-            None => ground.constrain(RigidNodes {
-                extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * setup.h, f64::INFINITY]],
-                velocity: [setup.rough.then_some(0.0), Some(-self.pace.rate)],
-                ramp: self.pace.ramp,
-            }),
+            None => ground.constrain(held_nodes(
+                setup.h,
+                [setup.rough.then_some(0.0), Some(-self.pace.rate)],
+                self.pace.ramp,
+            )),
             Some((barrier, _)) => {
                 let contact = self.contact(barrier, &ground.bodies.particles)?;
                 ground.contact(contact)
