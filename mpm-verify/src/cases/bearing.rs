@@ -26,6 +26,8 @@ const DAMPED: f64 = 0.002;
 const INERTIA: f64 = 0.01;
 /// Largest share of a pressure that its average does not see.
 const SMOOTH: f64 = 0.2;
+/// The longest step, as a CFL number, that halving proves short enough.
+const SAFE_STEP: f64 = 0.5;
 
 parameters! {
     /// Parameters of the case.
@@ -110,6 +112,7 @@ impl Setup<Bearing> {
             (!plastic, "the ground is not plastic yet"),
             (strain > STIFF, "the ground deforms by more than a thousandth before it yields"),
             (!slow, "pressed so fast, the ground rings"),
+            (self.cfl > SAFE_STEP, "the step is so long that yielding ground swings"),
             (self.damping > DAMPED, "damping holds what would move"),
             (self.transfer() != TransferName::Flip || self.flip < 1.0, "the transfer resists as a viscosity does"),
         ];
@@ -240,7 +243,7 @@ pub(super) fn case() -> Case {
     let compared = pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarRecursive, FbarRate, FbarConsistent]);
     let sound = pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]);
     let plan = Plan::of(levels(WIDTH, [("b10", 10.0), ("b20", 20.0), ("b40", 40.0)]))
-        .runs(Pr, "b10", &sound, "")
+        .runs(Pr, "b10", &[sound[0], sound[1], sound[3]], "cfl=0.5 domain_depth=2 penetration=0.001")
         .runs(Nightly, "b10", &compared, "")
         .runs(Nightly, "b20 b40", &sound, "")
         .runs(Nightly, "b10", &compared, CONSTANT_VOLUME)
@@ -273,7 +276,6 @@ pub(super) fn case() -> Case {
         .headline(CHECKERBOARD_RATIO, "checkerboard (–)", 1.0, 2)
         .quantity(error(CAPACITY_ERROR, "relative error of the load by B"))
         .watched(&["capacity_ratio", "jacobian_max"])
-        .field(FieldView::at_end(["plastic_strain", "plastic strain (-)"], (0.0, 0.01), [(0.0, 4.0), (-1.5, 0.0)]))
         .sketch(sketch([4, 3], "Ground four footing widths wide and three deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner, a surcharge beside it."))
         .tables(vec![
             ResultTable::of("bearing", |r| is_flip(r))

@@ -160,7 +160,7 @@ fn plan() -> Plan {
         .runs(Quick, "h2", &gimp(&REMEDIES), "")
         .runs(Quick, "h2", &gimp(&[FbarRecursive]), "cfl=0.15")
         .runs(Pr, "h2", &two(&REMEDIES), "")
-        .runs(Pr, "h2", &pairs(&[Bspline3], &REMEDIES[..4]), "")
+        .runs(Pr, "h2", &pairs(&[Bspline3], &[none]), "")
         .runs(Pr, "h1", &gimp(&[none, FbarRecursive]), "")
         .runs(Pr, "h1", &quadratic(&[none]), "")
         .runs(Pr, "h1", &gimp(&[FbarConsistent]), "cfl=0.6")

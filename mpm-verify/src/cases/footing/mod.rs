@@ -205,7 +205,7 @@ fn cost(spec: &RunSpec) -> f64 {
     solver * sweep * if dense { 4.0 } else { 1.0 } / spec.level.h.powi(3)
 }
 
-/// A footing on ground so many of its widths wide and deep, in words.
+/// A footing on ground `across` and `down` of its widths wide and deep, in words.
 pub(super) fn sketch([across, down]: [u32; 2], words: &'static str) -> Sketch {
     let ([width, depth], half) = ([across, down].map(|n| f64::from(n) * WIDTH), 0.5 * WIDTH);
     Sketch::of(words)

@@ -130,7 +130,7 @@ impl Setup<Footing> {
     }
 }
 
-/// Ground so many widths of the footing wide and deep, its base fixed, its sides on rollers.
+/// Ground of these widths of the footing across and down, its base fixed, its sides on rollers.
 pub(in crate::cases) fn ground<P: ParameterSet>(
     setup: &Setup<P>,
     widths: [i32; 2],
