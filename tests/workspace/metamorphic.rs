@@ -241,7 +241,7 @@ struct Gate {
 }
 
 /// Pairs that a run of the first gate may take.
-const SMALL: u64 = 35_000;
+const SMALL: u64 = 32_000;
 
 /// Tries all changes of some runs, as far as a budget of `pairs` and `steps` goes.
 fn gate(runs: impl Iterator<Item = Run>, pairs: u64, steps: u64) -> Gate {

@@ -246,6 +246,7 @@ pub(super) fn case() -> Case {
         .runs(Pr, "b10", &[sound[0], sound[1], sound[3]], "cfl=0.5 domain_depth=2 penetration=0.001")
         .runs(Nightly, "b10", &compared, "")
         .runs(Nightly, "b20 b40", &sound, "")
+        .runs(Long, "b20 b40", &compared, "")
         .runs(Nightly, "b10", &compared, CONSTANT_VOLUME)
         .runs(Nightly, "b20", &sound, CONSTANT_VOLUME)
         .runs(Nightly, "b10 b20", &sound, "surcharge=100")
