@@ -84,7 +84,7 @@ impl Setup<Bearing> {
 
     fn law(&self) -> Result<DruckerPrager, Fault> {
         let angles = [self.friction, self.dilation].map(f64::to_radians);
-        Ok(DruckerPrager::new((self.young_modulus, self.poisson_ratio), self.cohesion, angles, Matched::PlaneStrain)?)
+        DruckerPrager::new((self.young_modulus, self.poisson_ratio), self.cohesion, angles, Matched::PlaneStrain)
     }
 
     /// Where the exact mechanism of a rough footing ends beside it, and its greatest depth (m).
@@ -279,7 +279,7 @@ pub(super) fn case() -> Case {
         .watched(&["capacity_ratio", "jacobian_max"])
         .sketch(sketch([4, 3], "Ground four footing widths wide and three deep, its base fixed, its sides on rollers, the left one the axis of symmetry; a rigid footing half a metre wide presses on the upper left corner, a surcharge beside it."))
         .tables(vec![
-            ResultTable::of("bearing", |r| is_flip(r))
+            ResultTable::of("bearing", is_flip)
                 .by(&[SCHEME, ("h", |r| r.level.replace('b', "B/")), CHANGED])
                 .metric("load over exact", CAPACITY_RATIO, fixed(3))
                 .metric("by B, off by", CAPACITY_ERROR, percent(1))
