@@ -18,6 +18,8 @@ import time
 
 # c/(γ H) of the shipped slope, 5 m high.
 STRENGTH = 28.87e3 / (2150 * 9.81 * 5)
+# The same of the clay over sand, 6 m high; circles down to the sand have N = 6.527 (mpm-verify/exact/src/slope.rs).
+LAYER = 25e3 / (1750 * 9.81 * 6)
 
 
 def face(angle):
@@ -37,6 +39,7 @@ SCENES = [
     ("slope, 60°", "slope-quasi-static", face(60), known(5.24, 5.25), (1.0, 2.2)),
     ("slope, 75°", "slope-quasi-static", face(75), known(4.56, 4.57), (0.9, 2.0)),
     ("slope, 2:1, with friction", "slope-with-friction", None, "1.380 (Bishop & Morgenstern 1960)", (1.0, 2.0)),
+    ("soft clay over sand, 2:1", "layered-slope", None, f"below {6.527 * LAYER:.3f} (circle)", (1.4, 1.8)),
     ("vertical cut", "vertical-cut", None, "0.801 to 0.805", (0.5, 1.5)),
 ]
 
