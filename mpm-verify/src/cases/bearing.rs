@@ -7,7 +7,7 @@ use crate::cases::footing::sketch;
 use crate::cases::observe::mean_stress;
 use crate::cases::prelude::*;
 use crate::statistics::checkerboard;
-use mpm_core::material::{DruckerPrager, Matched};
+use mpm_core::material::{DruckerPrager, Matched, MohrCoulomb};
 use mpm_core::stage::{DeadForce, smooth_stroke};
 use std::f64::consts::FRAC_PI_4;
 
@@ -29,6 +29,11 @@ const SMOOTH: f64 = 0.2;
 /// The longest step, as a CFL number, that halving proves short enough.
 const SAFE_STEP: f64 = 0.5;
 
+choices! {
+    /// Yield surface.
+    enum Surface { Cone = "cone", Pyramid = "pyramid" }
+}
+
 parameters! {
     /// Parameters of the case.
     struct Bearing {
@@ -38,6 +43,7 @@ parameters! {
         cohesion: f64 = real("Pa", "100", 1e-6, 1e12), "cohesion c";
         friction: f64 = real("deg", "20", 1.0, 45.0), "angle of friction φ";
         dilation: f64 = real("deg", "20", 0.0, 45.0), "angle of dilation ψ, at most φ";
+        surface: Surface = Surface::Cone.by_default(), "yield surface: Drucker and Prager's cone, matched in plane strain, or Mohr and Coulomb's pyramid";
         surcharge: f64 = real("Pa", "0", 0.0, 1e12), "load q on the surface beside the footing, a dead one that rises with the footing's speed";
         domain_width: i32 = whole("B", "4", 2, 40), "width of the right half of the ground, in widths of the footing";
         domain_depth: i32 = whole("B", "3", 1, 40), "depth of the ground, in widths of the footing";
@@ -82,9 +88,13 @@ impl Setup<Bearing> {
         held_width(self.basis(), self.wall, self.h).0
     }
 
-    fn law(&self) -> Result<DruckerPrager, Fault> {
-        let angles = [self.friction, self.dilation].map(f64::to_radians);
-        DruckerPrager::new((self.young_modulus, self.poisson_ratio), self.cohesion, angles, Matched::PlaneStrain)
+    fn law(&self) -> Result<SharedLaw, Fault> {
+        let (elasticity, angles) =
+            ((self.young_modulus, self.poisson_ratio), [self.friction, self.dilation].map(f64::to_radians));
+        Ok(match self.surface {
+            Surface::Cone => DruckerPrager::new(elasticity, self.cohesion, angles, Matched::PlaneStrain)?.into(),
+            Surface::Pyramid => MohrCoulomb::new(elasticity, self.cohesion, angles)?.into(),
+        })
     }
 
     /// Where the exact mechanism of a rough footing ends beside it, and its greatest depth (m).
@@ -129,7 +139,7 @@ impl Setup<Bearing> {
     }
 
     fn dt(&self) -> Result<f64, Fault> {
-        Ok(courant_time_step(self.cfl, self.h, mpm_core::Law::wave_speed(&self.law()?, self.density)))
+        Ok(courant_time_step(self.cfl, self.h, self.law()?.wave_speed(self.density)))
     }
 
     /// Surcharge of the whole surface beside the footing (N/m).
@@ -167,7 +177,7 @@ impl Problem<2> for Pressing {
 
     fn begin(&self, _: &Self::Seen) -> Begun<2> {
         let setup = &self.setup;
-        let ground = ground(setup, [setup.domain_width, setup.domain_depth], setup.law()?.into())?;
+        let ground = ground(setup, [setup.domain_width, setup.domain_depth], setup.law()?)?;
         let beside = |x: &[f64; 2]| x[0] > 0.5 * WIDTH && x[1] > -0.75 * setup.pitch();
         let surcharge = DeadForce::shared([0.0, -setup.surcharged()], setup.ramp, &ground.bodies.particles, beside);
         let velocity = [Some(0.0), Some(-setup.penetration_rate)];
@@ -249,7 +259,7 @@ pub(super) fn case() -> Case {
         .runs(Long, "b20 b40", &compared, "")
         .runs(Nightly, "b10", &compared, CONSTANT_VOLUME)
         .runs(Nightly, "b20", &sound, CONSTANT_VOLUME)
-        .runs(Nightly, "b10 b20", &sound, "surcharge=100")
+        .each(Nightly, "b10 b20", &sound, ["surface=pyramid", "surcharge=100"])
         .runs(Nightly, "b10 b20", &sound, THIRTY)
         .runs(Nightly, "b10", &sound[1..2], "penetration_rate=5e-4");
     Case::of::<2, Pressing>("bearing", "Strip footing on ground with friction", OWN)
