@@ -40,7 +40,7 @@ pub(crate) use mpm_core::material::{
     Hencky, HenckyJ2, ImprovedHencky, JaumannUpdate, Law, NeoHookean, NewtonianFluid, SharedLaw, Strength, Viscous,
 };
 pub(crate) use mpm_core::poro::{Conductivity, Water};
-pub(crate) use mpm_core::stage::{BodyForce, End, Gravity, RigidNodes, Wall, WallKind, smooth_rise};
+pub(crate) use mpm_core::stage::{Amplitude, BodyForce, End, Gravity, RigidNodes, Wall, WallKind};
 pub(crate) use mpm_core::{Axis, Bodies, Error as Fault, Field, Grid, Part, Particles, Saved, Scene, Side, Simulation};
 pub(crate) use nalgebra::{DMatrix, DVector, Matrix2, Matrix3, SMatrix, Vector3};
 pub(crate) use serde::{Deserialize, Serialize};

@@ -3,10 +3,10 @@
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::particles::Particles;
-use crate::stage::{End, smooth_rise, smooth_stroke};
+use crate::stage::{Amplitude, End};
 
 /// The plane face of a rigid body, which may be limited across its normal (a footing) and may move.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RigidFace<const D: usize> {
     axis: usize,
     /// Sign of the outward normal along `axis`.
@@ -14,7 +14,7 @@ pub struct RigidFace<const D: usize> {
     position: f64,
     extent: [[f64; 2]; D],
     velocity: [f64; D],
-    ramp: f64,
+    amplitude: Amplitude,
 }
 
 impl<const D: usize> RigidFace<D> {
@@ -36,7 +36,7 @@ impl<const D: usize> RigidFace<D> {
             position,
             extent: [[f64::NEG_INFINITY, f64::INFINITY]; D],
             velocity: [0.0; D],
-            ramp: 0.0,
+            amplitude: Amplitude::Rise(0.0),
         })
     }
 
@@ -47,16 +47,15 @@ impl<const D: usize> RigidFace<D> {
         Self { extent, ..self }
     }
 
-    /// Moves the face with `velocity` (m/s), which rises smoothly from zero over `ramp` (s).
+    /// Moves the face with `velocity` (m/s) times the `amplitude`.
     ///
     /// # Errors
-    /// A velocity that is not finite, a ramp that is negative or not finite.
-    pub fn moving(self, velocity: [f64; D], ramp: f64) -> Result<Self, Error> {
+    /// A velocity that is not finite.
+    pub fn moving(self, velocity: [f64; D], amplitude: Amplitude) -> Result<Self, Error> {
         for v in velocity {
             require(true, "velocity of a rigid face", v, "finite (m/s)")?;
         }
-        require(ramp >= 0.0, "ramp of a rigid face", ramp, "not negative (s)")?;
-        Ok(Self { velocity, ramp, ..self })
+        Ok(Self { velocity, amplitude, ..self })
     }
 
     /// Puts the face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
@@ -83,7 +82,7 @@ impl<const D: usize> RigidFace<D> {
             position: frame.place(&on_face)[axis],
             extent: frame.extent(&self.extent),
             velocity: frame.vector(&self.velocity, frame.scale(0, 1)),
-            ramp: self.ramp,
+            amplitude: self.amplitude.clone(),
         }
     }
 
@@ -99,13 +98,13 @@ impl<const D: usize> RigidFace<D> {
 
     /// Displacement (m) since time zero: the exact integral of [`Self::velocity`].
     pub fn displacement(&self, time: f64) -> [f64; D] {
-        let stroke = smooth_stroke(time, self.ramp);
+        let stroke = self.amplitude.integral(time);
         self.velocity.map(|v| v * stroke)
     }
 
     /// Velocity (m/s) at `time` (s), not negative.
     pub fn velocity(&self, time: f64) -> [f64; D] {
-        let rise = smooth_rise(time, self.ramp);
+        let rise = self.amplitude.at(time);
         self.velocity.map(|v| v * rise)
     }
 

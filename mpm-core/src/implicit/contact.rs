@@ -47,7 +47,7 @@ impl<const D: usize> Obstacle<D> {
     fn new(contact: &RigidContact<D>, start: f64, time: f64) -> Self {
         let [before, moved] = [start, time].map(|time| SVector::from(contact.face().displacement(time)));
         Self {
-            face: *contact.face(),
+            face: contact.face().clone(),
             barrier: contact.barrier(),
             moved,
             friction: contact.friction(),

@@ -1,6 +1,6 @@
 //! Body forces and dead forces.
 
-use super::{Load, smooth_rise};
+use super::{Amplitude, Load};
 use crate::frame::Frame;
 use crate::memory::Memoryless;
 use crate::parallel::{CHUNK, for_each_piece};
@@ -68,19 +68,23 @@ impl<const D: usize> Load<D> for Gravity<D> {
 pub struct DeadForce<const D: usize> {
     loaded: Vec<bool>,
     force: [f64; D],
-    ramp: f64,
+    amplitude: Amplitude,
 }
 
 impl<const D: usize> DeadForce<D> {
-    /// Shares `total` (N) equally among the particles whose reference position satisfies `select`. It
-    /// grows as a smooth step over the first `ramp` seconds (0: it is there at once).
-    pub fn shared(total: [f64; D], ramp: f64, particles: &Particles<D>, select: impl Fn(&[f64; D]) -> bool) -> Self {
+    /// Shares `total` (N) times the `amplitude` equally among the particles whose reference position satisfies `select`.
+    pub fn shared(
+        total: [f64; D],
+        amplitude: Amplitude,
+        particles: &Particles<D>,
+        select: impl Fn(&[f64; D]) -> bool,
+    ) -> Self {
         let mut loaded = vec![false; particles.len()];
         for (id, reference) in particles.id.iter().zip(&particles.reference) {
             loaded[*id as usize] = select(reference);
         }
         let count = loaded.iter().filter(|&&l| l).count().max(1) as f64;
-        Self { loaded, force: total.map(|f| f / count), ramp }
+        Self { loaded, force: total.map(|f| f / count), amplitude }
     }
 
     /// How many particles carry the load.
@@ -93,7 +97,7 @@ impl<const D: usize> Memoryless for DeadForce<D> {}
 
 impl<const D: usize> Load<D> for DeadForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {
-        let share = smooth_rise(time, self.ramp);
+        let share = self.amplitude.at(time);
         for (force, id) in particles.external_force.iter_mut().zip(&particles.id) {
             if self.loaded[*id as usize] {
                 for (f, add) in force.iter_mut().zip(self.force) {

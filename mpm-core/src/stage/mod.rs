@@ -10,6 +10,7 @@
 //! A stage that carries something from one step to the next says so in its [`Memory`]; the others are
 //! [`Memoryless`](crate::Memoryless).
 
+mod amplitude;
 mod kinetic_damping;
 mod load;
 mod local_damping;
@@ -17,6 +18,7 @@ mod rest;
 mod rigid_nodes;
 mod wall;
 
+pub use amplitude::Amplitude;
 pub use kinetic_damping::KineticDamping;
 pub use load::{BodyForce, DeadForce, ForceField, Gravity};
 pub use local_damping::LocalDamping;
@@ -110,6 +112,13 @@ pub trait Constraint<const D: usize>: Memory + Send {
         1.0
     }
 
+    /// The integral of the amplitude (s) over `dt` (s) from `time` (s).
+    fn travel(&self, time: f64, dt: f64) -> f64 {
+        // Simpson's rule: exact where an amplitude is a cubic.
+        let at = |share: f64| self.amplitude(time + share * dt);
+        dt * (at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0
+    }
+
     /// Whole cells along every axis by which the nodes that it holds at time zero have moved on at `time` (s).
     fn shift(&self, _grid: &crate::Grid<D>, _time: f64) -> [f64; D] {
         [0.0; D]
@@ -151,26 +160,4 @@ pub trait ParticleFilter<const D: usize>: Memory + Send {
     /// Changes the particles, knowing the kinetic energy (J) of the nodes in the step; returns the
     /// energy (J) that it takes from the particles.
     fn filter(&mut self, nodal_kinetic_energy: f64, particles: &mut Particles<D>) -> f64;
-}
-
-/// The integral of [`smooth_rise`] since time zero (s): `ramp` (s³ − s⁴/2), s = time/ramp, then `time − ramp/2`; zero
-/// before.
-pub fn smooth_stroke(time: f64, ramp: f64) -> f64 {
-    if time <= 0.0 {
-        return 0.0;
-    }
-    if time >= ramp {
-        return time - 0.5 * ramp;
-    }
-    let s = time / ramp;
-    ramp * s * s * s * (1.0 - 0.5 * s)
-}
-
-/// Rises from zero at time zero to one at `ramp` (s) as 3 s² − 2 s³, s = time/ramp; one after it.
-pub fn smooth_rise(time: f64, ramp: f64) -> f64 {
-    if time >= ramp {
-        return 1.0;
-    }
-    let s = time / ramp;
-    s * s * (3.0 - 2.0 * s)
 }

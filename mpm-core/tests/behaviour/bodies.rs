@@ -8,7 +8,7 @@ use mpm_core::explicit::{Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{Hencky, NeoHookean, NewtonianFluid};
 use mpm_core::memory::Memory;
 use mpm_core::simulation::Field;
-use mpm_core::stage::{BodyForce, End, Gravity, LocalDamping, Wall, WallKind, smooth_rise};
+use mpm_core::stage::{Amplitude, BodyForce, End, Gravity, LocalDamping, Wall, WallKind};
 use mpm_core::{
     Axis, Basis, Bodies, Error, Frame, Grid, Lattice, Law, Part, Particles, Scene, Side, Simulation, implicit,
 };

@@ -10,7 +10,7 @@ use mpm_core::basis::Gimp;
 use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::{Settings, Solver, contact_cfl, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::stage::{End, Gravity, LocalDamping};
+use mpm_core::stage::{Amplitude, End, Gravity, LocalDamping};
 use mpm_core::{Axis, Bodies, Error, Fault, Grid, Part, Particles, Scene, Simulation};
 
 const H: f64 = 0.5;
@@ -143,7 +143,7 @@ const ROUNDING: f64 = 1e-12;
 fn a_block_rests_with_its_weight_on_the_floor() {
     let particles = block::<2>(16);
     let face = floor(&particles, DISTANCE);
-    let contact = RigidContact::new(face, barrier());
+    let contact = RigidContact::new(face.clone(), barrier());
     let scene = under(scene(particles, vec![contact]), |_| [0.0, -GRAVITY]);
     let mut solver = started(damped(scene)).unwrap();
     let weight = solver.totals().mass * GRAVITY;
@@ -164,7 +164,7 @@ fn a_block_rests_with_its_weight_on_the_floor() {
 fn the_gap_is_the_one_at_which_the_barrier_carries_the_load() {
     let particles = block::<2>(16);
     let face = floor(&particles, DISTANCE);
-    let contact = RigidContact::new(face, barrier());
+    let contact = RigidContact::new(face.clone(), barrier());
     let mut scene = damped(under(scene(particles, vec![contact]), |_| [0.0, -GRAVITY]));
     scene.0.grid.axes[0] = Axis::periodic(2.0 * H, 8);
     let mut solver = started(scene).unwrap();
@@ -181,7 +181,7 @@ fn momentum_balances<const D: usize>(friction: Option<Friction>) {
     let particles = block::<D>(6);
     let face = floor(&particles, 0.95 * DISTANCE);
     let velocity = std::array::from_fn(|a| 0.05 * (1.0 + a as f64));
-    let mut contact = RigidContact::new(face.moving(velocity, 0.5).unwrap(), barrier());
+    let mut contact = RigidContact::new(face.moving(velocity, Amplitude::Rise(0.5)).unwrap(), barrier());
     if let Some(friction) = friction {
         contact = contact.with_friction(friction);
     }
@@ -224,7 +224,7 @@ fn thrown(speed: f64) -> (RigidFace<2>, Block<2>) {
     let mut particles = block::<2>(8);
     particles.velocity.fill([0.0, -speed]);
     let face = floor(&particles, DISTANCE);
-    let contact = RigidContact::new(face, barrier());
+    let contact = RigidContact::new(face.clone(), barrier());
     (face, started(scene(particles, vec![contact])).unwrap())
 }
 
@@ -287,7 +287,7 @@ fn a_gap_is_that_to_where_the_face_is_at_the_end_of_a_step() {
     let dt = courant_time_step(CFL, H, law().wave_speed(DENSITY));
     let particles = block::<2>(8);
     let face = floor(&particles, 2.0 * DISTANCE);
-    let comes = face.moving([0.0, 3.0 * DISTANCE / dt], 0.0).unwrap();
+    let comes = face.moving([0.0, 3.0 * DISTANCE / dt], Amplitude::Rise(0.0)).unwrap();
     let contact = RigidContact::new(comes, barrier());
     let mut solver = started(scene(particles, vec![contact])).unwrap();
     match solver.step().unwrap_err() {

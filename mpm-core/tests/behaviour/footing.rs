@@ -5,7 +5,7 @@ use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::{Settings, Solver, contact_cfl};
 use mpm_core::material::{HenckyJ2, Law, Strength};
-use mpm_core::stage::{End, Wall, WallKind};
+use mpm_core::stage::{Amplitude, End, Wall, WallKind};
 use mpm_core::{Axis, Bodies, Grid, Part, Particles, Scene, Side, Simulation};
 use std::f64::consts::PI;
 
@@ -36,7 +36,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp>) {
         .unwrap()
         .within([[0.0, HALF_WIDTH], [0.0; 2]])
         .touching(&particles, DISTANCE)
-        .moving([0.0, -SPEED], RAMP)
+        .moving([0.0, -SPEED], Amplitude::Rise(RAMP))
         .unwrap();
     // The contact hardly shortens the step, even under four times the pressure.
     let wave = law.wave_speed(DENSITY) * DT / H;
@@ -51,7 +51,7 @@ fn footing(per_cell: usize) -> (RigidFace<2>, Barrier, Solver<2, 3, Gimp>) {
         .constrain(wall(1, End::Lo, WallKind::Fixed))
         .constrain(wall(0, End::Lo, WallKind::Roller))
         .constrain(wall(0, End::Hi, WallKind::Roller))
-        .contact(RigidContact::new(face, barrier).with_friction(friction));
+        .contact(RigidContact::new(face.clone(), barrier).with_friction(friction));
     let settings = Settings::new(DT).remedy(Box::new(Fbar::new(Form::Rate)));
     (face, barrier, Solver::new(scene, settings).unwrap())
 }

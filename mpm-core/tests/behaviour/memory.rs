@@ -9,7 +9,8 @@ use mpm_core::explicit::{Remedy, Settings, Solver, Transfer, courant_time_step};
 use mpm_core::material::{HenckyJ2, NeoHookean, NewtonianFluid, Strength, shared};
 use mpm_core::memory::{Memory, MemoryError, Saved};
 use mpm_core::stage::{
-    BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, RigidNodes, Wall, WallKind,
+    Amplitude, BodyForce, DeadForce, End, KineticDamping, LocalDamping, Observation, RestCriterion, RigidNodes, Wall,
+    WallKind,
 };
 use mpm_core::{Axis, Basis, Bodies, Grid, Law, Part, Scene, Side, Simulation};
 
@@ -33,11 +34,11 @@ fn scene<M: Law + 'static, T>(
         *v = [3.0, 0.05 * x[0] * x[1]];
     }
     let dt = courant_time_step(0.2, H, law.wave_speed(DENSITY));
-    let pull = DeadForce::shared([0.4, -0.2], 10.0 * dt, &particles, |x| x[1] > 5.0 * H);
+    let pull = DeadForce::shared([0.4, -0.2], Amplitude::Rise(10.0 * dt), &particles, |x| x[1] > 5.0 * H);
     let press = RigidNodes {
         extent: [[f64::NEG_INFINITY, f64::INFINITY], [6.0 * H, f64::INFINITY]],
         velocity: [None, Some(-0.2)],
-        ramp: 70.0 * dt,
+        amplitude: Amplitude::Rise(70.0 * dt),
     };
     let lid = RigidFace::half_space(1, End::Hi, 0.0).unwrap().touching(&particles, 0.2);
     let drag = Friction::new(0.3, 0.5).unwrap();

@@ -3,7 +3,7 @@
 use crate::scenes::{block, law, scene};
 use mpm_core::basis::{Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::Solver;
-use mpm_core::stage::{Constraint, End, MovingNodes, RigidNodes, Wall, WallKind};
+use mpm_core::stage::{Amplitude, Constraint, End, MovingNodes, RigidNodes, Wall, WallKind};
 use mpm_core::{Axis, Basis, Grid, Part, Side, Simulation};
 
 const H: f64 = 0.5;
@@ -31,7 +31,11 @@ fn pressed<const S: usize, B: Basis<S> + 'static>(base: WallKind, press: RigidNo
 /// A press on the whole top, from half a cell below it for splines, whose functions there are not
 /// interpolatory.
 fn press(velocity: [Option<f64>; 2]) -> RigidNodes<2> {
-    RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY], [HEIGHT - 0.5 * H, f64::INFINITY]], velocity, ramp: RAMP }
+    RigidNodes {
+        extent: [[f64::NEG_INFINITY, f64::INFINITY], [HEIGHT - 0.5 * H, f64::INFINITY]],
+        velocity,
+        amplitude: Amplitude::Rise(RAMP),
+    }
 }
 
 /// Force on the press over that of the law in uniaxial compression by the stroke, and on the base over it.
@@ -119,9 +123,10 @@ fn the_ramp_is_followed() {
 #[test]
 fn a_box_that_moves_goes_on_to_the_nodes_nearest_to_where_it_went() {
     let grid = Grid::new(0.5, [Axis::open(0.0, 8); 2]).unwrap();
-    let nodes = RigidNodes { extent: [[1.0, 1.2], [0.0, 4.0]], velocity: [Some(-1.0), None], ramp: 0.0 };
+    let nodes =
+        RigidNodes { extent: [[1.0, 1.2], [0.0, 4.0]], velocity: [Some(-1.0), None], amplitude: Amplitude::Rise(0.0) };
     for (time, cells) in [(0.0, 0.0), (0.24, 0.0), (0.26, -1.0), (0.74, -1.0), (0.76, -2.0)] {
-        let shift = |from: f64| MovingNodes { nodes, from: [from, 0.0] }.shift(&grid, time);
+        let shift = |from: f64| MovingNodes { nodes: nodes.clone(), from: [from, 0.0] }.shift(&grid, time);
         assert_eq!((shift(0.0), shift(1.0)), ([cells, 0.0], [cells + 2.0, 0.0]), "{time}");
     }
 }

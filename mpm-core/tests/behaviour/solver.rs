@@ -12,7 +12,9 @@ use mpm_core::material::{Law, NeoHookean};
 use mpm_core::parallel::CHUNK;
 use mpm_core::simulation::Part;
 use mpm_core::stage::Load;
-use mpm_core::stage::{BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind};
+use mpm_core::stage::{
+    Amplitude, BodyForce, Constraint, End, Gravity, KineticDamping, LocalDamping, RigidNodes, Wall, WallKind,
+};
 use mpm_core::{Axis, Basis, Error, Fault, Grid, Memoryless, Particles, Side, Simulation};
 use std::f64::consts::PI;
 
@@ -269,7 +271,11 @@ fn what_constraints_take_is_known() {
     particles.velocity.fill([v, 0.0]);
     let (scene, mut settings) = scene(open_grid::<2>(0.5, 12), particles);
     settings.remedy = Box::new(Standard);
-    let plate = RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2], velocity: [Some(w), None], ramp: 0.0 };
+    let plate = RigidNodes {
+        extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2],
+        velocity: [Some(w), None],
+        amplitude: Amplitude::Rise(0.0),
+    };
     let scene = scene.load(Gravity(Box::new(move |_| [g, 0.0]))).constrain(plate);
     let dt = settings.dt;
     let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();

@@ -8,7 +8,7 @@ use crate::cases::observe::mean_stress;
 use crate::cases::prelude::*;
 use crate::statistics::checkerboard;
 use mpm_core::material::{DruckerPrager, Matched, MohrCoulomb};
-use mpm_core::stage::{DeadForce, smooth_stroke};
+use mpm_core::stage::DeadForce;
 use std::f64::consts::FRAC_PI_4;
 
 /// Rows of the series.
@@ -135,7 +135,7 @@ impl Setup<Bearing> {
 
     /// Penetration over B at `time` (s).
     fn stroke(&self, time: f64) -> f64 {
-        self.penetration_rate * smooth_stroke(time, self.ramp) / WIDTH
+        self.penetration_rate * Amplitude::Rise(self.ramp).integral(time) / WIDTH
     }
 
     fn dt(&self) -> Result<f64, Fault> {
@@ -179,7 +179,12 @@ impl Problem<2> for Pressing {
         let setup = &self.setup;
         let ground = ground(setup, [setup.domain_width, setup.domain_depth], setup.law()?)?;
         let beside = |x: &[f64; 2]| x[0] > 0.5 * WIDTH && x[1] > -0.75 * setup.pitch();
-        let surcharge = DeadForce::shared([0.0, -setup.surcharged()], setup.ramp, &ground.bodies.particles, beside);
+        let surcharge = DeadForce::shared(
+            [0.0, -setup.surcharged()],
+            Amplitude::Rise(setup.ramp),
+            &ground.bodies.particles,
+            beside,
+        );
         let velocity = [Some(0.0), Some(-setup.penetration_rate)];
         let scene = ground.load(surcharge).constrain(held_nodes(setup.h, velocity, setup.ramp));
         setup.explicit(scene, self.dt, setup.damping)

@@ -4,6 +4,7 @@ use super::stiffness::{REMEDIES, slope_of_the_forces, strained};
 use super::*;
 use crate::contact::{Barrier, RigidContact, RigidFace};
 use crate::simulation::Part;
+use crate::stage::Amplitude;
 use crate::stage::Gravity;
 
 /// Where the barrier begins (m).
@@ -197,7 +198,7 @@ fn a_face_across_a_periodic_axis_is_refused() {
 fn a_face_that_jumps_on_the_body_is_a_typed_error() {
     let mut solver = thrown(TimeRule::Midpoint { lumped: 0.1 }, 0.01, 1.5 * DISTANCE);
     let contact = &solver.scene.contacts[0];
-    let face = contact.face().moving([0.0, 1e4], 0.0).unwrap();
+    let face = contact.face().clone().moving([0.0, 1e4], Amplitude::Rise(0.0)).unwrap();
     solver.scene.contacts[0] = RigidContact::new(face, contact.barrier());
     let error = solver.step().unwrap_err();
     let closed = matches!(

@@ -5,6 +5,7 @@ use super::stiffness::{REMEDIES, slope_of_the_forces, strained};
 use super::*;
 use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::simulation::Part;
+use crate::stage::Amplitude;
 use crate::stage::Gravity;
 
 pub(super) const MU: f64 = 0.3;
@@ -240,7 +241,7 @@ fn a_rough_face_that_moves_along_itself_takes_a_block_with_it() {
     let mut solver = block(0.0, |k| Friction::rough(k).unwrap(), Settings::new(1.0));
     settle(&mut solver);
     let contact = &solver.scene.contacts[0];
-    let face = contact.face().moving([speed, 0.0], 0.0).unwrap();
+    let face = contact.face().clone().moving([speed, 0.0], Amplitude::Rise(0.0)).unwrap();
     let moving = RigidContact::new(face, contact.barrier());
     let mut moving = moving.with_friction(contact.friction().unwrap());
     moving.attach(solver.particles().len());

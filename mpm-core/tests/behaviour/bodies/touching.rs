@@ -2,6 +2,11 @@
 
 use super::*;
 
+/// The factor of what rises over `rise` (s).
+fn risen(time: f64, rise: f64) -> f64 {
+    Amplitude::Rise(rise).at(time)
+}
+
 /// The particles without those that `out` picks.
 fn without(p: Particles<2>, out: impl Fn(&[f64; 2]) -> bool) -> Particles<2> {
     let places = p.position.into_iter().filter(|x| !out(x)).collect();
@@ -20,8 +25,7 @@ fn a_block_slides_above_the_angle_of_friction_only() {
         let stiff = NeoHookean::new(2000.0, 0.3).unwrap();
         let bodies = Bodies::new(stiff, base).unwrap().and(stiff, upper).unwrap().sliding(friction).unwrap();
         // Gravity presses first, and pulls once the block rests: what is loaded at once bounces.
-        let gravity =
-            move |t: f64| [theta.sin() * smooth_rise((t - 2.0).max(0.0), 1.0), -theta.cos() * smooth_rise(t, 2.0)];
+        let gravity = move |t: f64| [theta.sin() * risen((t - 2.0).max(0.0), 1.0), -theta.cos() * risen(t, 2.0)];
         let scene = Scene::new(Grid::new(H, axes).unwrap(), bodies)
             .load(Gravity(Box::new(gravity)))
             .constrain(Wall::new(1, End::Lo, WallKind::Fixed));
@@ -128,7 +132,7 @@ fn two_discs_press_each_other_as_hertz_says() {
     let (left, right) = (rings([1.25, 1.5], radius, 0.5 * h), rings([3.25, 1.5], radius, 0.5 * h));
     let law = NeoHookean::new(young, ratio).unwrap();
     let bodies = Bodies::new(law, left).unwrap().and(law, right).unwrap().sliding(0.0).unwrap();
-    let pressed = move |x: &[f64; 2], t: f64| [pull * smooth_rise(t, 2.0) * if x[0] < 2.25 { 1.0 } else { -1.0 }, 0.0];
+    let pressed = move |x: &[f64; 2], t: f64| [pull * risen(t, 2.0) * if x[0] < 2.25 { 1.0 } else { -1.0 }, 0.0];
     let grid = Grid::new(h, [Axis::open(0.0, 180), Axis::open(0.0, 120)]).unwrap();
     let scene = Scene::new(grid, bodies).load(BodyForce(Box::new(pressed)));
     let settings = Settings::new(courant_time_step(0.3, h, law.wave_speed(DENSITY)));
@@ -194,7 +198,7 @@ fn a_block_slides_on_steps_as_on_a_smooth_incline() {
         let bodies = Bodies::new(stiff, base).unwrap().and(stiff, upper).unwrap().sliding(friction).unwrap();
         let axes = [Axis::walls(0.0, 40), Axis::bounded(0.0, 50, (Side::Wall, Side::Open))];
         let scene = Scene::new(Grid::new(h, axes).unwrap(), bodies)
-            .load(Gravity(Box::new(move |t| [0.0, -g * smooth_rise(t, 0.2)])))
+            .load(Gravity(Box::new(move |t| [0.0, -g * risen(t, 0.2)])))
             .constrain(Wall::new(1, End::Lo, WallKind::Fixed));
         let settings = Settings::new(courant_time_step(0.3, h, stiff.wave_speed(DENSITY)));
         let mut solver = Solver::<2, 3, Gimp>::new(scene, settings).unwrap();

@@ -1,7 +1,7 @@
 //! Blocks that slide, stick and are taken along.
 
 use super::*;
-use mpm_core::stage::{smooth_rise, smooth_stroke};
+use mpm_core::stage::Amplitude;
 
 /// A block with friction `mu` at the speed `speed`, under gravity of the slope `slope`.
 pub(super) fn on_a_slope(mu: f64, slope: f64, speed: f64) -> Setting<2> {
@@ -67,7 +67,8 @@ fn a_rough_stick_does_not_creep() {
         RigidContact::new(floor(&particles, REST_GAP), barrier()).with_friction(Friction::rough(stick()).unwrap());
     let shear = 0.5 * GRAVITY;
     let scene = damped(under(scene(particles, vec![contact]), move |t| {
-        let share = smooth_rise((t - 40.0).max(0.0), 5.0) - smooth_rise((t - 120.0).max(0.0), 5.0);
+        let share = [40.0, 120.0].map(|begin: f64| Amplitude::Rise(5.0).at((t - begin).max(0.0)));
+        let share = share[0] - share[1];
         [share * shear, -GRAVITY]
     }));
     let dt = scene.1.dt;
@@ -91,13 +92,14 @@ fn a_rough_stick_does_not_creep() {
 fn a_moving_plate_takes_a_block_along() {
     let particles = block::<2>(16);
     let (speed, ramp, pull) = ([0.1, 0.02], 12.0, -0.05);
-    let face = floor(&particles, REST_GAP).moving(speed, ramp).unwrap();
-    let contact = RigidContact::new(face, barrier()).with_friction(Friction::rough(stick()).unwrap());
+    let face = floor(&particles, REST_GAP).moving(speed, Amplitude::Rise(ramp)).unwrap();
+    let contact = RigidContact::new(face.clone(), barrier()).with_friction(Friction::rough(stick()).unwrap());
     let mut solver =
-        started(under(scene(particles, vec![contact]), move |t| [pull * smooth_rise(t, 12.0), -GRAVITY])).unwrap();
+        started(under(scene(particles, vec![contact]), move |t| [pull * Amplitude::Rise(12.0).at(t), -GRAVITY]))
+            .unwrap();
     run(&mut solver, 30.0);
     assert!(solver.work().sorts > 3);
-    let stroke = smooth_stroke(solver.time(), ramp);
+    let stroke = Amplitude::Rise(ramp).integral(solver.time());
     let moved = face.displacement(solver.time());
     assert_eq!(moved, [0.1 * stroke, 0.02 * stroke]);
     let mass_per_stick = LOAD / GRAVITY;

@@ -1,7 +1,7 @@
 //! Momentum, energy and time order of what moves.
 
 use super::*;
-use mpm_core::stage::{Gravity, RigidNodes, smooth_rise};
+use mpm_core::stage::{Amplitude, Gravity, RigidNodes};
 
 const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.05 };
 const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
@@ -99,8 +99,9 @@ fn a_body_falls_freely() {
 #[test]
 fn what_is_held_moves_as_it_is_told_at_every_time() {
     const SPEED: f64 = 0.3;
-    let ramp = 6.0 * DT;
-    let plate = RigidNodes { extent: [[f64::NEG_INFINITY, f64::INFINITY]; 2], velocity: [Some(SPEED), None], ramp };
+    let amplitude = Amplitude::Rise(6.0 * DT);
+    let extent = [[f64::NEG_INFINITY, f64::INFINITY]; 2];
+    let plate = RigidNodes { extent, velocity: [Some(SPEED), None], amplitude: amplitude.clone() };
     let mut scene = tumbling(rubber());
     scene.bodies.particles.velocity.fill([0.0; 2]);
     let settings = Settings::new(DT).rule(MIDPOINT);
@@ -108,7 +109,7 @@ fn what_is_held_moves_as_it_is_told_at_every_time() {
     let mut solver = Solver::<2>::new::<Quadratics<2>>(scene, settings).unwrap();
     for _ in 0..8 {
         solver.step().unwrap();
-        let speed = SPEED * smooth_rise(solver.time(), ramp);
+        let speed = SPEED * amplitude.at(solver.time());
         for [vx, vy] in &solver.particles().velocity {
             assert!((vx - speed).abs() < 1e-12 && vy.abs() < 1e-12, "{vx} {vy}");
         }

@@ -1,7 +1,7 @@
 //! Where a step is looked for.
 
 use super::*;
-use mpm_core::stage::RigidNodes;
+use mpm_core::stage::{Amplitude, RigidNodes};
 
 /// The ground under a strip that sinks into it.
 fn pressed() -> Solver<2> {
@@ -9,7 +9,7 @@ fn pressed() -> Solver<2> {
     let strip = RigidNodes {
         extent: [[f64::NEG_INFINITY, 2.0 * H], [surface - H, f64::INFINITY]],
         velocity: [Some(0.0), Some(-0.05)],
-        ramp: 0.0,
+        amplitude: Amplitude::Rise(0.0),
     };
     in_two_steps(ground().constrain(strip), Remedy::FbarConsistent, Onto::Basis)
 }

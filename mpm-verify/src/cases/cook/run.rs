@@ -74,7 +74,7 @@ impl Setup<Cook> {
     fn loads(&self, ramp: f64, particles: &Particles<2>) -> Vec<DeadForce<2>> {
         let spacing = self.pitch();
         let column = |share: f64, from_edge: f64| {
-            DeadForce::shared([0.0, share * self.load], ramp, particles, |x| {
+            DeadForce::shared([0.0, share * self.load], Amplitude::Rise(ramp), particles, |x| {
                 (x[0] - (LENGTH - from_edge * spacing)).abs() < 0.25 * spacing
             })
         };

@@ -63,7 +63,7 @@ impl Dam {
     fn tank(&self, rise: f64) -> Result<Scene<2>, Fault> {
         let kind = if self.setup.wall_contact == Contact::Sticky { WallKind::Roller } else { WallKind::Separable };
         let walls = [(1, End::Lo), (0, End::Lo), (0, End::Hi)];
-        let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * smooth_rise(time, rise)]));
+        let weight = Gravity(Box::new(move |time| [0.0, -GRAVITY * Amplitude::Rise(rise).at(time)]));
         let body = Bodies::new(self.law, self.particles()?)?;
         let h = self.setup.h;
         let [along, up] = [TANK, HEIGHT].map(|length| (length / h).round() as usize);
@@ -184,7 +184,7 @@ fn gate_of(basis: BasisName, h: f64) -> RigidNodes<2> {
     RigidNodes {
         extent: [[LENGTH - reach, f64::INFINITY], [f64::NEG_INFINITY, f64::INFINITY]],
         velocity: [Some(0.0), None],
-        ramp: 0.0,
+        amplitude: Amplitude::Rise(0.0),
     }
 }
 

@@ -5,7 +5,6 @@ use super::*;
 use crate::cases::observe::mean_stress;
 use crate::statistics::oscillation;
 use mpm_core::implicit::GHOST;
-use mpm_core::stage::smooth_stroke;
 
 /// Width B of the footing (m); its right half is simulated.
 pub(in crate::cases) const WIDTH: f64 = 1.0;
@@ -37,7 +36,7 @@ pub(super) struct Pace {
 impl Pace {
     /// Penetration of the footing over B at `time` (s): the integral of its velocity.
     fn stroke(&self, time: f64) -> f64 {
-        self.rate * smooth_stroke(time, self.ramp) / WIDTH
+        self.rate * Amplitude::Rise(self.ramp).integral(time) / WIDTH
     }
 
     /// Penetration over B at the end of the start.
@@ -151,7 +150,11 @@ pub(in crate::cases) fn ground<P: ParameterSet>(
 /// A footing of nodes that come to a velocity (m/s) in `ramp` (s): those on and above the surface, and those of splines
 /// with nodes in the middle of cells that lie half a cell below, without which the surface would not be rigid.
 pub(in crate::cases) fn held_nodes(h: f64, velocity: [Option<f64>; 2], ramp: f64) -> RigidNodes<2> {
-    RigidNodes { extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]], velocity, ramp }
+    RigidNodes {
+        extent: [[f64::NEG_INFINITY, 0.5 * WIDTH], [-0.5 * h, f64::INFINITY]],
+        velocity,
+        amplitude: Amplitude::Rise(ramp),
+    }
 }
 
 /// Width (m) that a footing of held nodes acts with, and its uncertainty: up to the middle between the last held node and
@@ -201,7 +204,7 @@ impl Pressing {
         let face = RigidFace::half_space(1, End::Hi, 0.0)?
             .within([[f64::NEG_INFINITY, 0.5 * WIDTH], [0.0; 2]])
             .touching(particles, reach)
-            .moving([0.0, -self.pace.rate], self.pace.ramp)?;
+            .moving([0.0, -self.pace.rate], Amplitude::Rise(self.pace.ramp))?;
         let contact = RigidContact::new(face, barrier);
         if !self.setup.rough {
             return Ok(contact);

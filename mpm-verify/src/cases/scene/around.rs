@@ -7,7 +7,6 @@ use super::shape::ends;
 use crate::case::{Scenery, Timed};
 use crate::cases::prelude::*;
 use crate::draw::Line;
-use mpm_core::stage::smooth_stroke;
 
 /// Corners of the polygon that a disc is drawn as.
 const ROUND: u32 = 72;
@@ -18,7 +17,7 @@ const ROUNDING: f64 = 1e-9;
 struct Held<const D: usize> {
     ends: [[f64; 2]; D],
     velocity: [f64; D],
-    rise: f64,
+    amplitude: Amplitude,
     /// Beginning and duration (s) of the phases in which it acts.
     acts: Vec<[f64; 2]>,
 }
@@ -30,7 +29,7 @@ impl<const D: usize> Held<D> {
         if !self.acts.iter().any(acts) {
             return None;
         }
-        let stroke = |[begin, duration]: &[f64; 2]| smooth_stroke((time - begin).min(*duration), self.rise);
+        let stroke = |[begin, duration]: &[f64; 2]| self.amplitude.integral((time - begin).min(*duration));
         let stroke: f64 = self.acts.iter().map(stroke).sum();
         let end = |a: usize, side: usize| {
             (self.ends[a][side] + self.velocity[a] * stroke).clamp(grid.axes[a].lo, grid.axes[a].hi(grid.h))
@@ -76,11 +75,16 @@ impl<const D: usize> Setup<D> {
                 let own = &self.grid.axes[*axis as usize];
                 let mut ends = [[f64::NEG_INFINITY, f64::INFINITY]; D];
                 ends[*axis as usize] = [[own.lo, own.hi(self.grid.h)][*end as usize]; 2];
-                Held { ends, velocity: [0.0; D], rise: 0.0, acts: during(phases) }
+                Held { ends, velocity: [0.0; D], amplitude: Amplitude::Rise(0.0), acts: during(phases) }
             }
-            SupportForm::Nodes { within, velocity_m_s, moves, rise_s, phases, .. } => {
+            SupportForm::Nodes { within, velocity_m_s, moves, rise_s, amplitude, phases, .. } => {
                 let velocity = speeds(velocity_m_s).map(|speed| speed.filter(|_| *moves).unwrap_or(0.0));
-                Held { ends: ends(within), velocity, rise: rise_s.0, acts: during(phases) }
+                Held {
+                    ends: ends(within),
+                    velocity,
+                    amplitude: self.over_time(*rise_s, amplitude),
+                    acts: during(phases),
+                }
             }
         };
         let supports = self.form.supports.iter().map(|form| support(form.get_ref()));
@@ -88,7 +92,8 @@ impl<const D: usize> Setup<D> {
             let (form, mut ends) = (form.get_ref(), ends(&form.get_ref().within));
             ends[form.axis as usize] = [form.at_m.0; 2];
             let velocity = components(form.velocity_m_s.as_deref().unwrap_or_default());
-            Held { ends, velocity, rise: form.rise_s.0, acts: during(&form.phases) }
+            let amplitude = self.over_time(form.rise_s, &form.amplitude);
+            Held { ends, velocity, amplitude, acts: during(&form.phases) }
         });
         let held: Vec<Held<D>> = supports.chain(faces).collect();
         let bodies: Vec<Line> = self.form.all_bodies().flat_map(|body| &body.get_ref().shapes).map(outline).collect();

@@ -4,7 +4,6 @@ use super::form::LoadForm;
 use super::phase::Phase;
 use super::setup::{Setup, acts, components};
 use crate::cases::prelude::*;
-use mpm_core::stage::smooth_rise;
 
 /// Momentum and kinetic energy at the start of a phase, and what the phases so far lack.
 #[derive(Default, Clone, Copy, Serialize, Deserialize)]
@@ -69,17 +68,17 @@ impl<const D: usize> Setup<D> {
         let mass = run.totals().mass;
         let mut impulse = [0.0; D];
         for load in &self.form.loads {
-            let (force, rise) = match load.get_ref() {
-                LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, &phase.name) => {
-                    (components::<D>(acceleration_m_s2).map(|g| g * mass), rise_s.0)
+            let (force, amplitude) = match load.get_ref() {
+                LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, &phase.name) => {
+                    (components::<D>(acceleration_m_s2).map(|g| g * mass), self.over_time(*rise_s, amplitude))
                 }
-                LoadForm::Force { total_n, rise_s, phases, .. } if acts(phases, &phase.name) => {
-                    (components(total_n), rise_s.0)
+                LoadForm::Force { total_n, rise_s, amplitude, phases, .. } if acts(phases, &phase.name) => {
+                    (components(total_n), self.over_time(*rise_s, amplitude))
                 }
                 _ => continue,
             };
             // A step takes loads as they are at its start.
-            let strokes = (0..phase.steps).map(|step| smooth_rise(step as f64 * phase.dt, rise) * phase.dt);
+            let strokes = (0..phase.steps).map(|step| amplitude.at(step as f64 * phase.dt) * phase.dt);
             let stroke: f64 = strokes.sum();
             for (sum, force) in impulse.iter_mut().zip(force) {
                 *sum += force * stroke;

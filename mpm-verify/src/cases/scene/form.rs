@@ -132,6 +132,7 @@ tables! {
         format: Line<u32>, title: String,
         grid: Line<GridForm>, body: Line<BodyForm>, law: Line<LawForm>,
         #[serde(default)] bodies: Vec<Line<BodyForm>>,
+        #[serde(default)] amplitudes: Vec<Line<AmplitudeForm>>,
         water: Option<Line<WaterForm>>,
         #[serde(default)] loads: Vec<Line<LoadForm>>,
         #[serde(default)] supports: Vec<Line<SupportForm>>,
@@ -166,6 +167,11 @@ tables! {
         porosity: Option<Share>, conductivity: Option<ConductivityForm>,
     }
 
+    /// A factor over time, linear between knots of time (s) and factor, which stand here or in a CSV file beside the scene.
+    AmplitudeForm {
+        name: Name, knots: Option<Vec<[Finite; 2]>>, file: Option<String>,
+    }
+
     WaterForm {
         porosity: Share,
         conductivity: ConductivityForm,
@@ -179,7 +185,7 @@ tables! {
         axis: AxisForm, end: EndForm,
         #[serde(default)] on: Region,
         traction_pa: Option<Vec<Finite>>,
-        #[serde(default)] rise_s: NotNegative,
+        #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
         drain_penalty_m_pa_s: Option<Positive>,
     }
 
@@ -188,7 +194,7 @@ tables! {
         name: Name, axis: AxisForm, end: EndForm, at_m: Finite,
         #[serde(default)] within: Region,
         velocity_m_s: Option<Vec<Finite>>,
-        #[serde(default)] rise_s: NotNegative,
+        #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
         stiffness_n_m: Positive, reach_m: Positive,
         friction: Option<FrictionForm>,
         #[serde(default, deserialize_with = "named")] phases: Vec<String>,
@@ -311,13 +317,15 @@ kinds! {
     LoadForm {
         Gravity {
             acceleration_m_s2: Vec<Finite>,
-            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
         /// A force shared by the particles that begin in a region; per metre of depth in plane strain.
         Force {
             total_n: Vec<Finite>,
             on: Region,
-            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
     }
 
@@ -333,7 +341,8 @@ kinds! {
             velocity_m_s: BTreeMap<AxisForm, Finite>,
             /// Whether the region moves with them.
             #[serde(default)] moves: bool,
-            #[serde(default)] rise_s: NotNegative, #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
     }
 }

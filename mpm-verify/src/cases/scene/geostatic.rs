@@ -17,10 +17,10 @@ impl<const D: usize> Setup<D> {
     pub(super) fn check_geostatic(&self, source: &Source) -> Result<(), Error> {
         let stressed = self.form.all_bodies().find(|body| body.get_ref().k0.is_some());
         match stressed {
-            Some(body) if self.gravity().is_none() => {
-                Err(source
-                    .at(body, "k0 needs one gravity in the first phase, down along the last axis and without rise_s"))
-            }
+            Some(body) if self.gravity().is_none() => Err(source.at(
+                body,
+                "k0 needs one gravity in the first phase, down along the last axis and without rise_s or amplitude",
+            )),
             _ => Ok(()),
         }
     }
@@ -29,9 +29,10 @@ impl<const D: usize> Setup<D> {
     fn gravity(&self) -> Option<f64> {
         let first = &self.phases.first()?.name;
         let mut all = self.form.loads.iter().filter_map(|load| match load.get_ref() {
-            LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, first) => {
+            LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, first) => {
                 let (down, across) = acceleration_m_s2.split_last()?;
-                let level = rise_s.0 == 0.0 && down.0 < 0.0 && across.iter().all(|g| g.0 == 0.0);
+                let steady = rise_s.0 == 0.0 && amplitude.is_none();
+                let level = steady && down.0 < 0.0 && across.iter().all(|g| g.0 == 0.0);
                 Some(if level { down.0 } else { f64::NAN })
             }
             _ => None,

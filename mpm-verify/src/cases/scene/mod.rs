@@ -3,6 +3,7 @@
 //!
 //! The format: `docs/reference/scene-files.md`.
 
+mod amplitude;
 mod around;
 mod balance;
 mod body;
@@ -93,8 +94,9 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
     let Seeds { places, volumes, velocities, stresses } = &setup.seeds;
     let parts = stresses.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy, s.yz, s.xz]);
     let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened()).copied().chain(parts);
+    sum.update(format!("{:?}", setup.amplitudes).as_bytes());
     numbers.chain([source.weaker]).for_each(|x| sum.update(&x.to_le_bytes()));
-    // A checksum of file and particles, by which a checkpoint tells its scene from others.
+    // A checksum of file, amplitudes and particles, by which a checkpoint tells its scene from others.
     let level = Level { name: lasting(format!("{:08x}", sum.finalize())), h: setup.grid.h };
     let (scheme, made, height, weight) = (setup.scheme, setup.made(), setup.relief(), setup.weight());
     let title = lasting(one_line(&setup.form.title));

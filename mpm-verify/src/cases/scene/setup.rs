@@ -1,5 +1,6 @@
 //! From a scene file to scenes: grid, body, what acts on it, phase by phase.
 
+use super::amplitude::{Amplitudes, amplitudes};
 use super::body::{check_bodies, other_laws};
 use super::fault::{Line, Source};
 use super::form::{
@@ -16,8 +17,7 @@ use mpm_core::explicit;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::poro::{self, Face, PressureSpace};
 use mpm_core::stage::{
-    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, MovingNodes, RigidNodes, smooth_rise,
-    smooth_stroke,
+    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, MovingNodes, RigidNodes,
 };
 use std::sync::Mutex;
 
@@ -35,6 +35,7 @@ pub(super) struct Setup<const D: usize> {
     pub(super) form: Form,
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
+    pub(super) amplitudes: Amplitudes,
     pub(super) grid: Grid<D>,
     pub(super) seeds: Seeds<D>,
     /// Where the particles of every body end among all, and the laws of the bodies after the first one.
@@ -62,7 +63,20 @@ impl<const D: usize> Setup<D> {
         let (seeds, ends) = seed(source, &form, &grid, spacing)?;
         let others = other_laws(source, &form)?;
         let phases = phases(source, &form, scheme, grid.h, &others)?;
-        let setup = Self { scheme, phases, grid, seeds, ends, others, spacing, size, form, first: Mutex::new(None) };
+        let amplitudes = amplitudes(source, &form)?;
+        let setup = Self {
+            scheme,
+            phases,
+            amplitudes,
+            grid,
+            seeds,
+            ends,
+            others,
+            spacing,
+            size,
+            form,
+            first: Mutex::new(None),
+        };
         setup.check(source)?;
         setup.check_geostatic(source)?;
         Ok(setup)
@@ -142,8 +156,11 @@ impl<const D: usize> Setup<D> {
         if moves && velocity_m_s.values().all(|velocity| velocity.0 == 0.0) {
             return Err(source.at(support, "moves = true with no velocity_m_s but zero: a region that moves has one"));
         }
-        for (axis, stroke) in self.strokes(support.get_ref(), self.phases.len()).into_iter().enumerate() {
-            let (stroke, most) = (stroke.abs(), 0.5 * self.grid.h);
+        let farthest = (1..=self.phases.len()).map(|count| self.strokes(support.get_ref(), count, Amplitude::farthest));
+        let farthest =
+            farthest.fold([0.0_f64; D], |most, strokes| std::array::from_fn(|a| most[a].max(strokes[a].abs())));
+        for (axis, stroke) in farthest.into_iter().enumerate() {
+            let most = 0.5 * self.grid.h;
             let ends = ends::<D>(within)[axis].iter().any(|end| end.is_finite());
             let (axis, periodic) = (["x", "y", "z"][axis], self.grid.axes[axis].is_periodic());
             if ends && stroke > most * (1.0 + ROUNDING) && (!moves || periodic) {
@@ -157,11 +174,16 @@ impl<const D: usize> Setup<D> {
         Ok(())
     }
 
-    /// Strokes (m) of a support, along every axis, in the first phases of the scene.
-    fn strokes(&self, support: &SupportForm, count: usize) -> [f64; D] {
-        let SupportForm::Nodes { velocity_m_s, rise_s, phases, .. } = support else { return [0.0; D] };
+    /// Strokes (m) of a support, along every axis, in the first phases of the scene, the last of which it leaves by `last`.
+    fn strokes(&self, support: &SupportForm, count: usize, last: fn(&Amplitude, f64) -> f64) -> [f64; D] {
+        let SupportForm::Nodes { velocity_m_s, rise_s, amplitude, phases, .. } = support else { return [0.0; D] };
+        let amplitude = self.over_time(*rise_s, amplitude);
         let acting = self.phases.iter().take(count).filter(|phase| acts(phases, &phase.name));
-        let time: f64 = acting.map(|phase| smooth_stroke(phase.duration(), rise_s.0)).sum();
+        let durations: Vec<f64> = acting.map(Phase::duration).collect();
+        let time = durations.split_last().map_or(0.0, |(end, before)| {
+            let before: f64 = before.iter().map(|duration| amplitude.integral(*duration)).sum();
+            before + last(&amplitude, *end)
+        });
         speeds(velocity_m_s).map(|speed| speed.map_or(0.0, |speed| speed * time))
     }
 
@@ -255,15 +277,15 @@ impl<const D: usize> Setup<D> {
         let mut all: Vec<Box<dyn Load<D>>> = Vec::new();
         for load in &self.form.loads {
             match load.get_ref() {
-                LoadForm::Gravity { acceleration_m_s2, rise_s, phases } if acts(phases, phase) => {
+                LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, phase) => {
                     let g = components::<D>(acceleration_m_s2);
-                    let rise = rise_s.0;
-                    all.push(Box::new(Gravity(Box::new(move |time| g.map(|g| g * smooth_rise(time, rise))))));
+                    let amplitude = self.over_time(*rise_s, amplitude);
+                    all.push(Box::new(Gravity(Box::new(move |time| g.map(|g| g * amplitude.at(time))))));
                 }
-                LoadForm::Force { total_n, on, rise_s, phases } if acts(phases, phase) => {
+                LoadForm::Force { total_n, on, rise_s, amplitude, phases } if acts(phases, phase) => {
                     let on = holds(on);
                     let total = components(total_n);
-                    let force = DeadForce::shared(total, rise_s.0, particles, on);
+                    let force = DeadForce::shared(total, self.over_time(*rise_s, amplitude), particles, on);
                     if force.count() == 0 {
                         return Err(mpm_core::Error::Input {
                             what: "particles that a force acts on",
@@ -294,10 +316,13 @@ impl<const D: usize> Setup<D> {
                         },
                     }))
                 }
-                SupportForm::Nodes { within, velocity_m_s, moves, rise_s, phases, .. } if acts(phases, &phase.name) => {
-                    let nodes = RigidNodes { extent: ends(within), velocity: speeds(velocity_m_s), ramp: rise_s.0 };
+                SupportForm::Nodes { within, velocity_m_s, moves, rise_s, amplitude, phases, .. }
+                    if acts(phases, &phase.name) =>
+                {
+                    let amplitude = self.over_time(*rise_s, amplitude);
+                    let nodes = RigidNodes { extent: ends(within), velocity: speeds(velocity_m_s), amplitude };
                     let before = self.phases.iter().take_while(|other| other.name != phase.name).count();
-                    let from = self.strokes(support.get_ref(), before);
+                    let from = self.strokes(support.get_ref(), before, Amplitude::integral);
                     all.push(if *moves { Box::new(MovingNodes { nodes, from }) } else { Box::new(nodes) });
                 }
                 _ => {}
@@ -309,7 +334,7 @@ impl<const D: usize> Setup<D> {
     fn contacts(&self, phase: &str) -> Result<Vec<RigidContact<D>>, mpm_core::Error> {
         let forms = self.form.contacts.iter().map(Line::get_ref);
         let forms = forms.filter(|form| acts(&form.phases, phase));
-        forms.map(contact).collect()
+        forms.map(|form| self.contact(form)).collect()
     }
 
     /// How an explicit run takes its steps.
@@ -388,34 +413,36 @@ impl<const D: usize> Setup<D> {
             water = water.drained(holds(region));
         }
         let faces = form.faces.iter();
-        Ok(faces.fold(water, |water, face| water.face(face_of(face.get_ref(), particles))))
+        Ok(faces.fold(water, |water, face| water.face(self.face(face.get_ref(), particles))))
     }
-}
 
-fn face_of<const D: usize>(form: &FaceForm, particles: &Particles<D>) -> Face<D> {
-    let (on, at) = (holds(&form.on), (form.axis as usize, end_of(form.end)));
-    match (&form.traction_pa, form.drain_penalty_m_pa_s) {
-        (Some(traction), _) => {
-            let (traction, rise) = (components::<D>(traction), form.rise_s.0);
-            Face::loaded(particles, on, at, move |time| traction.map(|t| t * smooth_rise(time, rise)))
+    fn face(&self, form: &FaceForm, particles: &Particles<D>) -> Face<D> {
+        let (on, at) = (holds(&form.on), (form.axis as usize, end_of(form.end)));
+        match (&form.traction_pa, form.drain_penalty_m_pa_s) {
+            (Some(traction), _) => {
+                let traction = components::<D>(traction);
+                let amplitude = self.over_time(form.rise_s, &form.amplitude);
+                Face::loaded(particles, on, at, move |time| traction.map(|t| t * amplitude.at(time)))
+            }
+            (None, penalty) => Face::drained(particles, on, at, value(penalty)),
         }
-        (None, penalty) => Face::drained(particles, on, at, value(penalty)),
     }
-}
 
-fn contact<const D: usize>(form: &ContactForm) -> Result<RigidContact<D>, mpm_core::Error> {
-    let mut face = RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?.within(ends(&form.within));
-    if let Some(velocity) = &form.velocity_m_s {
-        face = face.moving(components(velocity), form.rise_s.0)?;
+    fn contact(&self, form: &ContactForm) -> Result<RigidContact<D>, mpm_core::Error> {
+        let mut face =
+            RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?.within(ends(&form.within));
+        if let Some(velocity) = &form.velocity_m_s {
+            face = face.moving(components(velocity), self.over_time(form.rise_s, &form.amplitude))?;
+        }
+        let contact = RigidContact::new(face, Barrier::new(form.stiffness_n_m.0, form.reach_m.0)?);
+        Ok(match form.friction {
+            None => contact,
+            Some(friction) => contact.with_friction(match friction.coefficient {
+                Some(mu) => Friction::new(mu.0, friction.stiffness_n_m.0)?,
+                None => Friction::rough(friction.stiffness_n_m.0)?,
+            }),
+        })
     }
-    let contact = RigidContact::new(face, Barrier::new(form.stiffness_n_m.0, form.reach_m.0)?);
-    Ok(match form.friction {
-        None => contact,
-        Some(friction) => contact.with_friction(match friction.coefficient {
-            Some(mu) => Friction::new(mu.0, friction.stiffness_n_m.0)?,
-            None => Friction::rough(friction.stiffness_n_m.0)?,
-        }),
-    })
 }
 
 /// The value of a key; the core refuses the one that stands for a key without a value.

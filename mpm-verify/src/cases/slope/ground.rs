@@ -131,7 +131,7 @@ impl<const D: usize> Ground<D> {
         let particles = setup.particles_at(self.seed(), self.spacing, self.slope.density)?;
         let weight = Gravity(Box::new(move |time| {
             let mut g = [0.0; D];
-            g[1] = -GRAVITY * smooth_rise(time, rise);
+            g[1] = -GRAVITY * Amplitude::Rise(rise).at(time);
             g
         }));
         let body = Bodies::new(self.slope.law(strength)?, particles)?;

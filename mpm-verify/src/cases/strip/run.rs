@@ -191,7 +191,7 @@ impl Setup<Strip> {
             extent[up] = [SIDE, f64::INFINITY];
             let mut velocity = [None; D];
             velocity[up] = Some(-self.penetration / duration);
-            scene.constrain(RigidNodes { extent, velocity, ramp: 0.0 })
+            scene.constrain(RigidNodes { extent, velocity, amplitude: Amplitude::Rise(0.0) })
         } else {
             let under = move |x: &[f64; D]| surface(x) && x[..up].iter().all(|x| *x < half_width);
             water = water.face(Face::loaded(particles, under, top, move |t| downward(load * t / duration)));
