@@ -1,6 +1,7 @@
 //! Body forces and dead forces.
 
-use super::{Amplitude, Load};
+use super::sides::{area, by_id, free_sides};
+use super::{Amplitude, End, Load};
 use crate::frame::Frame;
 use crate::memory::Memoryless;
 use crate::parallel::{CHUNK, for_each_piece};
@@ -62,11 +63,11 @@ impl<const D: usize> Load<D> for Gravity<D> {
     }
 }
 
-/// A constant force on each of a set of particles: a dead traction, lumped to the particles that
-/// line the loaded side.
+/// A force on each of a set of particles that keeps its direction: a dead load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeadForce<const D: usize> {
-    loaded: Vec<bool>,
+    /// Factor of the force on every particle, by id.
+    shares: Vec<f64>,
     force: [f64; D],
     amplitude: Amplitude,
 }
@@ -79,17 +80,39 @@ impl<const D: usize> DeadForce<D> {
         particles: &Particles<D>,
         select: impl Fn(&[f64; D]) -> bool,
     ) -> Self {
-        let mut loaded = vec![false; particles.len()];
-        for (id, reference) in particles.id.iter().zip(&particles.reference) {
-            loaded[*id as usize] = select(reference);
-        }
-        let count = loaded.iter().filter(|&&l| l).count().max(1) as f64;
-        Self { loaded, force: total.map(|f| f / count), amplitude }
+        let shares = by_id(particles, 0.0, particles.reference.iter().map(select).map(f64::from).enumerate());
+        let count = shares.iter().sum::<f64>().max(1.0);
+        Self { shares, force: total.map(|f| f / count), amplitude }
+    }
+
+    /// A traction (Pa) times the `amplitude` on the undeformed free sides of the particles whose reference
+    /// position satisfies `select`. Of a side's force 3/2 act on its particle and −1/2 on the one behind, if there is one,
+    /// so that its moment is that of the side.
+    pub fn traction(
+        traction: [f64; D],
+        amplitude: Amplitude,
+        particles: &Particles<D>,
+        side: (usize, End),
+        select: impl Fn(&[f64; D]) -> bool,
+    ) -> Self {
+        let area = area(particles, side.0);
+        let sides = free_sides(particles, side, select).into_iter();
+        let shares = sides.flat_map(|(k, behind)| match behind {
+            Some(behind) => vec![(k, 1.5 * area), (behind, -0.5 * area)],
+            None => vec![(k, area)],
+        });
+        Self { shares: by_id(particles, 0.0, shares), force: traction, amplitude }
     }
 
     /// How many particles carry the load.
     pub fn count(&self) -> usize {
-        self.loaded.iter().filter(|&&l| l).count()
+        self.shares.iter().filter(|share| **share != 0.0).count()
+    }
+
+    /// Its sum (N) where the amplitude is one.
+    pub fn total(&self) -> [f64; D] {
+        let sum: f64 = self.shares.iter().sum();
+        self.force.map(|f| sum * f)
     }
 }
 
@@ -97,11 +120,12 @@ impl<const D: usize> Memoryless for DeadForce<D> {}
 
 impl<const D: usize> Load<D> for DeadForce<D> {
     fn add(&self, time: f64, particles: &mut Particles<D>) {
-        let share = self.amplitude.at(time);
+        let factor = self.amplitude.at(time);
         for (force, id) in particles.external_force.iter_mut().zip(&particles.id) {
-            if self.loaded[*id as usize] {
+            let share = self.shares[*id as usize];
+            if share != 0.0 {
                 for (f, add) in force.iter_mut().zip(self.force) {
-                    *f += share * add;
+                    *f += factor * share * add;
                 }
             }
         }

@@ -11,14 +11,17 @@
 //! [`Memoryless`](crate::Memoryless).
 
 mod amplitude;
+mod dashpots;
 mod kinetic_damping;
 mod load;
 mod local_damping;
 mod rest;
 mod rigid_nodes;
+mod sides;
 mod wall;
 
 pub use amplitude::Amplitude;
+pub use dashpots::Dashpots;
 pub use kinetic_damping::KineticDamping;
 pub use load::{BodyForce, DeadForce, ForceField, Gravity};
 pub use local_damping::LocalDamping;

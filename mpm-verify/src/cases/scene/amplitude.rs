@@ -1,7 +1,7 @@
 //! How loads, tractions and prescribed velocities vary over the time of a phase: a smooth rise, or a table by its name.
 
 use super::fault::{Line, Source};
-use super::form::{AmplitudeForm, Form, LoadForm, Name, NotNegative, SupportForm};
+use super::form::{AmplitudeForm, Form, Name, NotNegative, SupportForm};
 use super::setup::Setup;
 use crate::cases::prelude::*;
 
@@ -43,10 +43,9 @@ pub(super) fn amplitudes(source: &Source, form: &Form) -> Result<Amplitudes, Err
 
 /// Everything that varies over time: its place in the file, and its rise or the name of its table.
 fn timed(form: &Form) -> impl Iterator<Item = (std::ops::Range<usize>, &NotNegative, &Option<Name>)> {
-    let loads = form.loads.iter().map(|load| match load.get_ref() {
-        LoadForm::Gravity { rise_s, amplitude, .. } | LoadForm::Force { rise_s, amplitude, .. } => {
-            (load.span(), rise_s, amplitude)
-        }
+    let loads = form.loads.iter().map(|load| {
+        let (rise, amplitude, _) = load.get_ref().when();
+        (load.span(), rise, amplitude)
     });
     let supports = form.supports.iter().filter_map(|support| match support.get_ref() {
         SupportForm::Wall { .. } => None,

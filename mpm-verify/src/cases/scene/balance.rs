@@ -1,8 +1,7 @@
 //! Balance of momentum and energy of an explicit run: what loads gave and supports took is what the bodies have.
 
-use super::form::LoadForm;
 use super::phase::Phase;
-use super::setup::{Setup, acts, components};
+use super::setup::Setup;
 use crate::cases::prelude::*;
 
 /// Momentum and kinetic energy at the start of a phase, and what the phases so far lack.
@@ -65,27 +64,8 @@ impl<const D: usize> Setup<D> {
         if phase.damping > 0.0 {
             return;
         }
-        let mass = run.totals().mass;
-        let mut impulse = [0.0; D];
-        for load in &self.form.loads {
-            let (force, amplitude) = match load.get_ref() {
-                LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, &phase.name) => {
-                    (components::<D>(acceleration_m_s2).map(|g| g * mass), self.over_time(*rise_s, amplitude))
-                }
-                LoadForm::Force { total_n, rise_s, amplitude, phases, .. } if acts(phases, &phase.name) => {
-                    (components(total_n), self.over_time(*rise_s, amplitude))
-                }
-                _ => continue,
-            };
-            // A step takes loads as they are at its start.
-            let strokes = (0..phase.steps).map(|step| amplitude.at(step as f64 * phase.dt) * phase.dt);
-            let stroke: f64 = strokes.sum();
-            for (sum, force) in impulse.iter_mut().zip(force) {
-                *sum += force * stroke;
-            }
-        }
         let [supports, contacts, _] = self.parts(&phase.name);
-        balance.end(run, impulse, [supports.len(), contacts.len()]);
+        balance.end(run, self.impulse(phase, run), [supports.len(), contacts.len()]);
     }
 
     /// Why momentum and energy of a run are not balanced, if they are not.
@@ -94,6 +74,7 @@ impl<const D: usize> Setup<D> {
         let stopped = self.form.solver.get_ref().kinetic_damping == Some(true);
         match self.scheme {
             Scheme::Explicit(_) if damped => [Some("every phase has local damping"); 2],
+            Scheme::Explicit(_) if self.absorbs() => [Some("an absorbing side takes momentum"), None],
             Scheme::Explicit(_) if stopped => [Some("kinetic damping takes momentum"), None],
             Scheme::Explicit(_) => [None; 2],
             _ => [Some("an implicit scheme has no impulses"), Some("an implicit scheme balances it within its step")],

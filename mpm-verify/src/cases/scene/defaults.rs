@@ -51,7 +51,10 @@ impl Form {
         }
         let names: Vec<String> = self.phases.iter().map(|phase| phase.get_ref().name.0.clone()).collect();
         let loads = self.loads.iter_mut().map(|load| match load.as_mut() {
-            LoadForm::Gravity { phases, .. } | LoadForm::Force { phases, .. } => phases,
+            LoadForm::Gravity { phases, .. }
+            | LoadForm::Force { phases, .. }
+            | LoadForm::Traction { phases, .. }
+            | LoadForm::Absorbing { phases, .. } => phases,
         });
         let supports = self.supports.iter_mut().map(|support| match support.as_mut() {
             SupportForm::Wall { phases, .. } | SupportForm::Nodes { phases, .. } => phases,

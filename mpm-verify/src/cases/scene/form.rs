@@ -327,6 +327,23 @@ kinds! {
             #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
             #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
+        /// A traction on the free sides, at an end of an axis, of the particles that begin in a region. It keeps its
+        /// direction, and its size per undeformed area.
+        Traction {
+            traction_pa: Vec<Finite>,
+            axis: AxisForm, end: EndForm,
+            #[serde(default)] on: Region,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+        },
+        /// Dashpots on such sides: waves leave through them, and one may come in with a velocity.
+        Absorbing {
+            axis: AxisForm, end: EndForm,
+            #[serde(default)] on: Region,
+            incoming_m_s: Option<Vec<Finite>>,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+        },
     }
 
     SupportForm {

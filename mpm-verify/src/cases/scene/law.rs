@@ -113,6 +113,19 @@ pub(super) fn shear_strength(form: &LawForm) -> Option<f64> {
     })
 }
 
+/// Shear modulus at rest (Pa).
+pub(super) fn shear_modulus(form: &LawForm) -> f64 {
+    match form {
+        LawForm::NeoHookean { young_modulus_pa: e, poisson_ratio: nu }
+        | LawForm::Hencky { young_modulus_pa: e, poisson_ratio: nu }
+        | LawForm::HenckyJ2 { young_modulus_pa: e, poisson_ratio: nu, .. }
+        | LawForm::DruckerPrager { young_modulus_pa: e, poisson_ratio: nu, .. }
+        | LawForm::MohrCoulomb { young_modulus_pa: e, poisson_ratio: nu, .. } => e.0 / (2.0 + 2.0 * nu.0),
+        LawForm::NewtonianFluid { .. } => 0.0,
+        LawForm::ImprovedHencky { shear_modulus_pa: g, .. } | LawForm::CamClay { shear_modulus_pa: g, .. } => g.0,
+    }
+}
+
 fn strength_of(form: &StrengthForm) -> Result<Strength, mpm_core::Error> {
     match form {
         StrengthForm::Undrained { shear_strength_pa } => Strength::undrained(shear_strength_pa.0),

@@ -122,7 +122,7 @@ impl<const D: usize> Setup<D> {
             LoadForm::Gravity { acceleration_m_s2: g, .. } => {
                 g.iter().zip(&reach).map(|(g, reach)| density * g.0.abs() * reach).sum()
             }
-            LoadForm::Force { .. } => 0.0,
+            _ => 0.0,
         };
         self.form.loads.iter().map(weight).fold(0.0, f64::max)
     }

@@ -13,6 +13,7 @@ mod fault;
 mod form;
 mod geostatic;
 mod law;
+mod loads;
 mod made;
 mod phase;
 mod polygon;

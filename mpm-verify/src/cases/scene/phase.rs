@@ -2,7 +2,7 @@
 
 use super::fault::{Line, Source};
 use super::form::{Form, LawForm, WaterForm};
-use super::law::{law_of, shear_strength};
+use super::law::{law_of, shear_modulus, shear_strength};
 use crate::cases::prelude::*;
 use std::sync::Arc;
 
@@ -19,6 +19,8 @@ pub(super) struct Phase {
     pub(super) law: SharedLaw,
     /// Undrained shear strength at the start (Pa), of a law that has one.
     pub(super) strength: Option<f64>,
+    /// Shear modulus at rest (Pa).
+    pub(super) shear_modulus: f64,
     pub(super) steps: u64,
     steps_per_row: u64,
     pub(super) dt: f64,
@@ -143,6 +145,7 @@ pub(super) fn phases(
             name: given.name.0.clone(),
             law,
             strength: shear_strength(kind),
+            shear_modulus: shear_modulus(kind),
             steps: steps as u64,
             steps_per_row: steps_per_row as u64,
             dt,

@@ -4,8 +4,8 @@ use super::amplitude::{Amplitudes, amplitudes};
 use super::body::{check_bodies, other_laws};
 use super::fault::{Line, Source};
 use super::form::{
-    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, LoadForm, SupportForm,
-    WallForm, WallsForm,
+    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, SupportForm, WallForm,
+    WallsForm,
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{Seeds, ends, holds, seed, vector};
@@ -16,9 +16,7 @@ use mpm_core::basis::WallTreatment;
 use mpm_core::explicit;
 use mpm_core::implicit::{self, TimeRule};
 use mpm_core::poro::{self, Face, PressureSpace};
-use mpm_core::stage::{
-    Constraint, DeadForce, HOLDS_NOTHING, KineticDamping, Load, LocalDamping, MovingNodes, RigidNodes,
-};
+use mpm_core::stage::{Constraint, HOLDS_NOTHING, KineticDamping, LocalDamping, MovingNodes, RigidNodes};
 use std::sync::Mutex;
 
 /// Most cells of a grid.
@@ -91,12 +89,8 @@ impl<const D: usize> Setup<D> {
             Err(source.fault(at, format!("unknown phase {name:?}; allowed: {}", names.join(", "))))
         };
         for load in &self.form.loads {
-            let (name, numbers, phases) = match load.get_ref() {
-                LoadForm::Gravity { acceleration_m_s2: g, phases, .. } => ("acceleration_m_s2", g, phases),
-                LoadForm::Force { total_n, phases, .. } => ("total_n", total_n, phases),
-            };
-            vector::<D, _>(source, load, name, numbers)?;
-            known(&load.span(), phases)?;
+            self.check_load(source, load)?;
+            known(&load.span(), load.get_ref().when().2)?;
         }
         for support in &self.form.supports {
             let axes: Vec<AxisForm> = match support.get_ref() {
@@ -266,39 +260,11 @@ impl<const D: usize> Setup<D> {
         let bodies = self.bodies(phase)?;
         Ok(Scene {
             grid: self.grid,
-            loads: self.loads(&phase.name, &bodies.particles)?,
+            loads: self.loads(phase, &bodies.particles)?,
             bodies,
             constraints: self.constraints(phase),
             contacts: self.contacts(&phase.name)?,
         })
-    }
-
-    fn loads(&self, phase: &str, particles: &Particles<D>) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
-        let mut all: Vec<Box<dyn Load<D>>> = Vec::new();
-        for load in &self.form.loads {
-            match load.get_ref() {
-                LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, phase) => {
-                    let g = components::<D>(acceleration_m_s2);
-                    let amplitude = self.over_time(*rise_s, amplitude);
-                    all.push(Box::new(Gravity(Box::new(move |time| g.map(|g| g * amplitude.at(time))))));
-                }
-                LoadForm::Force { total_n, on, rise_s, amplitude, phases } if acts(phases, phase) => {
-                    let on = holds(on);
-                    let total = components(total_n);
-                    let force = DeadForce::shared(total, self.over_time(*rise_s, amplitude), particles, on);
-                    if force.count() == 0 {
-                        return Err(mpm_core::Error::Input {
-                            what: "particles that a force acts on",
-                            value: 0.0,
-                            allowed: "1 or more in the region `on` of a load",
-                        });
-                    }
-                    all.push(Box::new(force));
-                }
-                _ => {}
-            }
-        }
-        Ok(all)
     }
 
     fn constraints(&self, phase: &Phase) -> Vec<Box<dyn Constraint<D>>> {
@@ -466,7 +432,7 @@ pub(super) fn acts(phases: &[String], phase: &str) -> bool {
     phases.is_empty() || phases.iter().any(|name| name == phase)
 }
 
-fn end_of(form: EndForm) -> End {
+pub(super) fn end_of(form: EndForm) -> End {
     match form {
         EndForm::Lo => End::Lo,
         EndForm::Hi => End::Hi,
@@ -478,7 +444,7 @@ fn per_direction(form: &Form) -> u32 {
     form.body.get_ref().particles_per_direction.map_or(1, |count| count.0)
 }
 
-fn own_axis<const D: usize, T>(source: &Source, at: &Line<T>, axis: AxisForm) -> Result<(), Error> {
+pub(super) fn own_axis<const D: usize, T>(source: &Source, at: &Line<T>, axis: AxisForm) -> Result<(), Error> {
     let said = || format!("axis {axis:?} where the grid has {D}").to_lowercase();
     if (axis as usize) < D { Ok(()) } else { Err(source.at(at, said())) }
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 mod bodies;
 mod filled;
 mod fuzz;
+mod loads;
 mod moves;
 mod pairs;
 mod random;

@@ -93,6 +93,14 @@ fn scene(random: &mut fastrand::Rng) -> String {
         let region = format!("on = {{ {up}_m = [0, {height}] }}");
         text += &format!("[[loads]]\nforce = {{ total_n = {}, {region}, rise_s = {rise} }}\n", along("20", -30.0));
     }
+    if random.bool() {
+        let table = "[[amplitudes]]\nname = \"turns\"\nknots = [[0, 0], [0.03, 1], [0.05, -0.5]]\n";
+        let of = format!("axis = \"{up}\", end = \"hi\", amplitude = \"turns\"");
+        text += &format!("{table}[[loads]]\ntraction = {{ traction_pa = {}, {of} }}\n", along("10", -20.0));
+    }
+    if explicit && random.usize(..6) == 0 {
+        text += "[[loads]]\nabsorbing = { axis = \"x\", end = \"hi\" }\n";
+    }
     text +=
         &format!("[solver]\nscheme = \"{scheme}\"\n{}", if explicit { "cfl = 0.4\n" } else { "time_step_s = 0.02\n" });
     let damping = if explicit && random.usize(..4) == 0 { "local_damping = 0.1\n" } else { "" };
