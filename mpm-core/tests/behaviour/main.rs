@@ -14,6 +14,7 @@ mod frame;
 mod implicit;
 mod lattice;
 mod laws;
+mod loads;
 mod mapping;
 mod memory;
 mod modes;
