@@ -67,7 +67,7 @@ scheme = "quasi-static-gimp-none"
 time_step_s = 1
 [[phases]]
 name = "press"
-duration_s = 2
+duration_s = 1
 [output]
 row_s = 1
 "#;
@@ -122,7 +122,7 @@ fn a_layer_answers_its_base_as_dalembert_says() {
 }
 
 /// Half a particle beyond the dashpots throws back the share k s/4 of a wave at most, s a particle's size; the surface doubles
-/// it. Without dashpots, or with those of pressure waves, a fifth or more stays.
+/// it. The pulse has left after three seconds, and its short waves, which are slower, half a second later.
 #[test]
 fn waves_come_in_and_leave_through_an_absorbing_side() {
     let supports = LAYER.find("[[supports]]").unwrap()..LAYER.find("[solver]").unwrap();
@@ -138,7 +138,7 @@ fn waves_come_in_and_leave_through_an_absorbing_side() {
         let exact = 2.0 * pulse(time - 1.0);
         let most = (dispersed(2.0) + thrown_back) * 2.0 * STROKE;
         assert!((top - exact).abs() < most, "{time}: {top} of {exact}");
-        assert!(time < 3.2 || fastest < thrown_back * 1e-3, "{time}: {fastest}");
+        assert!(time < 3.6 || fastest < thrown_back * 1e-3, "{time}: {fastest}");
     }
 }
 
@@ -182,6 +182,7 @@ fn a_traction_is_the_stress_of_a_column() {
     assert!((last(&run(&read(&half).unwrap()).2, "b_y (N/m)") / -100.0 - 1.0).abs() < 1e-7);
     let table = "[[amplitudes]]\nname = \"gone\"\nknots = [[0, 0], [1, 1], [2, 0]]\n[solver]";
     let gone = COLUMN.replace("end = \"hi\" }", "end = \"hi\", amplitude = \"gone\" }").replace("[solver]", table);
+    let gone = gone.replace("duration_s = 1", "duration_s = 2");
     let (_, _, rows) = run(&read(&gone).unwrap());
     assert!(last(&rows[..1], "displacement_max (m)") > 0.17 && last(&rows, "displacement_max (m)") < 1e-9, "{rows:?}");
 }
@@ -198,7 +199,7 @@ fn loads_that_say_too_little_or_too_much_are_named_with_their_line() {
             LAYER,
             "file = \"pulse.csv\"",
             "knots = [[1, 0], [1, 1]]".into(),
-            &["line 16", "time of an amplitude 1", "rising"],
+            &["line 16", "time of an amplitude = 1", "rising"],
         ),
         (LAYER, base, base.replace("pulse", "quake"), &["line 20", "no amplitude \"quake\"", "has pulse"]),
         (LAYER, base, format!("{base}, rise_s = 1"), &["line 20", "either rise_s or amplitude"]),
