@@ -80,10 +80,10 @@ fn loads_on_sides_are_the_same_from_elsewhere() {
     let frame = Frame::along([(1, -1.0), (0, 1.0)]).in_units(1e3, 1e-6);
     let loads: [Box<dyn Load<2>>; 2] = [Box::new(traction), Box::new(dashpots)];
     for load in loads {
+        own.external_force.fill([0.0; 2]);
         let mut seen = own.seen_from(&frame);
         let order: Vec<u32> = (0..own.len() as u32).rev().collect();
         seen.permute(&order);
-        own.external_force.fill([0.0; 2]);
         load.add(1.0, &mut own);
         load.seen_from(&frame).add(1.0, &mut seen);
         for (k, force) in seen.external_force.iter().enumerate() {

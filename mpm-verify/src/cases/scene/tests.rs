@@ -4,6 +4,7 @@ use crate::parameter::Parameters;
 use std::path::PathBuf;
 
 mod bodies;
+mod exact;
 mod filled;
 mod fuzz;
 mod loads;

@@ -1,0 +1,91 @@
+//! Shipped scenes of ground against exact solutions (`docs/soils.md`).
+
+use super::bodies::rows_of;
+use super::*;
+use std::f64::consts::PI;
+
+/// A run of a shipped scene that some changes are made to, its strengths divided by a factor, to its end.
+fn run(file: &str, changes: &[(&str, &str)], weaker: f64) -> Result<Box<dyn Job>, Error> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let mut text = std::fs::read_to_string(shipped(file)).unwrap();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    std::fs::write(&path, text).unwrap();
+    let scene = SceneFile::read(&path, weaker, None)?;
+    let mut job = (scene.case.begin)(&scene.spec, &Parameters::new(&[], &[]).unwrap())?;
+    while !job.finished() {
+        job.advance()?;
+    }
+    Ok(job)
+}
+
+/// Walls bear Rankine's pressures: to 10⁻³, as a stroke of 3·10⁻⁴ of the length makes the ground higher and denser.
+#[test]
+fn a_wall_that_moves_bears_rankines_pressures() {
+    let (rows, _) = rows_of(&shipped("earth-pressure.toml"), 17);
+    let weight = 1835.0 * 9.81 * 25.0 / 2.0;
+    let cohesion = 2e3 * 5.0;
+    let exact = [weight / 3.0 - cohesion / 3.0_f64.sqrt(), 3.0 * weight + cohesion * 3.0_f64.sqrt()];
+    for (row, exact) in [&rows[9], &rows[16]].into_iter().zip(exact) {
+        let force = row.0.iter().find(|(name, _)| *name == "wall_x (N/m)").unwrap().1;
+        assert!((force / exact - 1.0).abs() < 1e-3, "{force} of {exact}");
+    }
+}
+
+/// An infinite slope fails where the base slides, at the depth of its lowest particles, a quarter of a cell above it: with
+/// Coulomb's strength there if ψ = φ, and without dilation with that of simple shear (Davis 1968).
+#[test]
+fn an_infinite_slope_stands_and_fails_by_its_factor() {
+    let factor = |depth: f64, dilates: bool| {
+        let (weight, beta) = (1835.0 * 9.81 * depth, 20.0_f64.to_radians());
+        let over = |factor: f64| {
+            let (c, slope) = (5e3 / factor, 25.0_f64.to_radians().tan() / factor);
+            let share = if dilates { 1.0 } else { slope.atan().cos() };
+            share * (c + weight * beta.cos() * slope) > weight * beta.sin()
+        };
+        let middle = |[lo, hi]: [f64; 2]| 0.5 * (lo + hi);
+        middle((0..50).fold([1.0, 2.0], |[lo, hi], _| match middle([lo, hi]) {
+            stands if over(stands) => [stands, hi],
+            falls => [lo, falls],
+        }))
+    };
+    for law in ["mohr-coulomb", "drucker-prager"] {
+        for (dilation, dilates) in [("25", true), ("0", false)] {
+            let dilation = format!("dilation_deg = {dilation}");
+            let changes = [("law.mohr-coulomb", &*format!("law.{law}")), ("dilation_deg = 25", &dilation)];
+            let [safe, lost] = [factor(5.0, dilates), 1.005 * factor(4.875, dilates)];
+            assert!(run("infinite-slope.toml", &changes, safe).is_ok(), "{law} {dilation}: {safe}");
+            let error = run("infinite-slope.toml", &changes, lost).err().map(|e| e.to_string()).unwrap_or_default();
+            assert!(error.contains("gives way"), "{law} {dilation}: {lost}: {error}");
+        }
+    }
+}
+
+/// Stresses of a strip load below the depth b, by Flamant's solution: particles have those of the cell's middle, h²/(8 b²)
+/// of the load off at most.
+#[test]
+fn a_strip_load_spreads_as_in_a_half_space() {
+    let mut job = run("strip-load.toml", &[], 1.0).unwrap();
+    let particles = job.particles();
+    let of = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    let (places, stresses) = (["x", "y"].map(of), ["stress_yy", "stress_xy"].map(of));
+    let mut count = 0;
+    for k in 0..places[0].len() {
+        let (x, depth) = (places[0][k], 16.0 - places[1][k]);
+        if !(1.0..4.0).contains(&depth) || x > 3.0 {
+            continue;
+        }
+        let [left, right] = [x + 1.0, x - 1.0].map(|x: f64| x.atan2(depth));
+        let (angle, turn) = (left - right, left + right);
+        let exact = [-(angle + angle.sin() * turn.cos()) / PI, angle.sin() * turn.sin() / PI];
+        for (stress, exact) in stresses.iter().zip(exact) {
+            let error = stress[k] / 1000.0 - exact;
+            assert!(error.abs() < 0.25 * 0.25 / 8.0, "{x} {depth}: {error}");
+        }
+        count += 1;
+    }
+    assert!(count > 500, "{count}");
+}

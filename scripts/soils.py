@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Shipped scenes of ground on several sizes of cells, against exact solutions: tables of docs/soils.md.
+
+usage: soils.py PROGRAM
+"""
+
+import csv
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+SCENES = pathlib.Path(__file__).parent.parent / "mpm-verify" / "scenes"
+GIMP, SPLINES = "quasi-static-gimp-none", "quasi-static-bspline2-none"
+
+
+def changed(name, ratio=1.0, **keys):
+    """A shipped scene with cells larger by a ratio, and other values of keys."""
+    text = (SCENES / f"{name}.toml").read_text()
+    size = float(re.search(r"cell_size_m = (\S+)", text).group(1))
+    cells = [int(n) for n in re.search(r"cells = \[(\d+), (\d+)\]", text).groups()]
+    text = text.replace(f"cell_size_m = {size:g}", f"cell_size_m = {size * ratio:g}")
+    text = re.sub(r"cells = \[.*\]", f"cells = {[round(n / ratio) for n in cells]}", text)
+    for key, value in keys.items():
+        text = re.sub(rf"(?m)^{key} = .*$", f"{key} = {value}", text)
+    return text
+
+
+def run(text, command="scene", *options):
+    """Folder of a run, and the last line that it said."""
+    folder = pathlib.Path(tempfile.mkdtemp())
+    (folder / "own.toml").write_text(text)
+    words = [sys.argv[1], command, str(folder / "own.toml"), "--out", str(folder / "out"), *options]
+    said = subprocess.run(words, capture_output=True, text=True).stdout.strip()
+    return folder / "out", said.splitlines()[-1] if said else ""
+
+
+def columns(path):
+    with open(path) as file:
+        rows = list(csv.DictReader(file))
+    return {name: [float(row[name]) for row in rows] for name in rows[0]}
+
+
+def strip_load():
+    """Greatest errors of the stresses over the load, a half to four half widths deep, by the solution of a half-space."""
+    print("| cells under the half width, box | functions | σ_yy | σ_xy | σ_xx |\n|---|---|---|---|---|")
+    for scheme, name in [(GIMP, "GIMP"), (SPLINES, "quadratic splines")]:
+        for ratio, box in [(2, 16), (1, 16), (0.5, 16), (1, 32)]:
+            text = changed("strip-load", ratio, scheme=f'"{scheme}"')
+            if box == 32:
+                text = text.replace("[16, 16]", "[32, 32]").replace("cells = [64, 66]", "cells = [128, 130]")
+            p = columns(run(text)[0] / "particles.csv")
+            worst = [0.0, 0.0, 0.0]
+            for k in range(len(p["x (m)"])):
+                x = p["x (m)"][k] - p["displacement_x (m)"][k]
+                z = box - p["y (m)"][k] + p["displacement_y (m)"][k]
+                if not (1 < z < 4 and x < 3):
+                    continue
+                left, right = math.atan2(x + 1, z), math.atan2(x - 1, z)
+                angle, turn = left - right, left + right
+                exact = [
+                    -(angle + math.sin(angle) * math.cos(turn)) / math.pi,
+                    math.sin(angle) * math.sin(turn) / math.pi,
+                    -(angle - math.sin(angle) * math.cos(turn)) / math.pi,
+                ]
+                for a, part in enumerate(["yy", "xy", "xx"]):
+                    worst[a] = max(worst[a], abs(p[f"stress_{part} (Pa)"][k] / 1000 - exact[a]))
+            errors = " | ".join(f"{100 * error:.1f} %" for error in worst)
+            print(f"| {4 / ratio:g}, {box} m | {name} | {errors} |", flush=True)
+
+
+def earth_pressure():
+    """Forces on the wall at the end of both phases, over those of Rankine's states."""
+    weight = 1835 * 9.81 * 25 / 2
+    active, passive = weight / 3 - 2e3 / math.sqrt(3) * 5, 3 * weight + 2e3 * math.sqrt(3) * 5
+    print("\n| cells over the height | functions | active | passive |\n|---|---|---|---|")
+    for scheme, name in [(GIMP, "GIMP"), (SPLINES, "quadratic splines")]:
+        for ratio in [1, 0.5]:
+            text = changed("earth-pressure", ratio, scheme=f'"{scheme}"')
+            text = text.replace("friction_deg = 30", "friction_deg = 30\ndilation_deg = 30")
+            force = columns(run(text)[0] / "series.csv")["wall_x (N/m)"]
+            print(f"| {10 / ratio:g} | {name} | {force[9] / active:.4f} | {force[-1] / passive:.4f} |", flush=True)
+
+
+def infinite_slope():
+    """Factors at which the slope stands and fails."""
+    print("\n| cells over the height | functions | ψ = φ | ψ = 0 |\n|---|---|---|---|")
+    for scheme, name in [(GIMP, "GIMP"), (SPLINES, "quadratic splines")]:
+        for ratio in [1, 0.5]:
+            found = []
+            for dilation in [25, 0]:
+                text = changed("infinite-slope", ratio, scheme=f'"{scheme}"', dilation_deg=dilation)
+                _, said = run(text, "factor", "--least", "1.1", "--most", "1.8", "--trials", "12")
+                found.append(re.search(r"Factor of safety ([\d.]+)", said).group(1))
+            print(f"| {10 / ratio:g} | {name} | {' | '.join(found)} |", flush=True)
+
+
+if __name__ == "__main__":
+    strip_load()
+    earth_pressure()
+    infinite_slope()
