@@ -2,6 +2,7 @@
 
 use super::balance::Balance;
 use super::body::moved;
+use super::form::SupportForm;
 use super::lasting;
 use super::phase::Phase;
 use super::setup::Setup as Made;
@@ -102,13 +103,22 @@ impl<const D: usize> Course<D> {
     }
 }
 
-/// Columns that a reader should see first: displacement, kinetic energy of a scheme that has it, and upright forces.
+/// Columns that a reader should see first: displacement, kinetic energy of a scheme that has it, and forces: on nodes that
+/// push, along their way, on others upright.
 pub(super) fn watched<const D: usize>(setup: &Made<D>) -> Vec<&'static str> {
-    let up = ["x", "y", "z"][setup.up()];
+    let pushed = |name: &str| {
+        setup.form.supports.iter().find_map(|support| match support.get_ref() {
+            SupportForm::Nodes { name: own, velocity_m_s, .. } if own.0 == name => {
+                velocity_m_s.iter().find(|(_, speed)| speed.0 != 0.0).map(|(axis, _)| *axis as usize)
+            }
+            _ => None,
+        })
+    };
     let mut all = vec!["displacement_max"];
     all.extend(matches!(setup.scheme, Scheme::Explicit(_)).then_some("kinetic_energy"));
     for name in setup.phases.iter().flat_map(|phase| setup.parts(&phase.name)).flatten() {
-        let column = format!("{name}_{up}");
+        let axis = pushed(name).unwrap_or_else(|| setup.up());
+        let column = format!("{name}_{}", ["x", "y", "z"][axis]);
         if all.len() < CHARTS && !all.contains(&&*column) {
             all.push(lasting(column));
         }
