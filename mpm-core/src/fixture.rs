@@ -3,16 +3,12 @@
 use crate::grid::{Axis, Grid};
 use crate::implicit::unknowns::Pattern;
 use crate::memory::Memoryless;
+use crate::particles::Particles;
 use crate::stage::Constraint;
 use nalgebra::SMatrix;
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G (x − c) does.
-pub(crate) struct Affine<const D: usize> {
-    /// G.
-    pub(crate) gradient: SMatrix<f64, D, D>,
-    /// Every coordinate of c (m).
-    pub(crate) centre: f64,
-}
+/// Moves the nodes at the faces of the grid, and beyond, as the field u = G x with this G does.
+pub(crate) struct Affine<const D: usize>(pub(crate) SMatrix<f64, D, D>);
 
 impl<const D: usize> Memoryless for Affine<D> {}
 
@@ -20,8 +16,7 @@ impl<const D: usize> Constraint<D> for Affine<D> {
     fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
         let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
         let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        let along = |b: usize| self.gradient[(axis, b)] * (position[b] - self.centre);
-        at_edge.then(|| (0..D).map(along).sum())
+        at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
     }
 
     fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
@@ -69,9 +64,9 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Particles at the places of a lattice: `count` along every axis, the first of which varies fastest, `spacing` (m)
+/// Particles of 1000 kg/m³ that fill a box: `count` along every axis, the first of which varies fastest, `spacing` (m)
 /// apart from `origin` (m) on.
-pub(crate) fn lattice<const D: usize>(count: [usize; D], spacing: f64, origin: f64) -> Vec<[f64; D]> {
+pub(crate) fn filling<const D: usize>(count: [usize; D], spacing: f64, origin: f64) -> Particles<D> {
     let place = |mut k: usize| {
         count.map(|along| {
             let i = k % along;
@@ -79,5 +74,6 @@ pub(crate) fn lattice<const D: usize>(count: [usize; D], spacing: f64, origin: f
             origin + spacing * (i as f64 + 0.5)
         })
     };
-    (0..count.iter().product()).map(place).collect()
+    let places = (0..count.iter().product()).map(place).collect();
+    Particles::new(places, spacing.powi(D as i32), 1000.0, [0.5 * spacing; D]).unwrap()
 }

@@ -3,7 +3,7 @@
 use super::*;
 use crate::Particles;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use crate::fixture::lattice;
+use crate::fixture::filling;
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
@@ -47,9 +47,7 @@ fn full<const D: usize, M: Law + 'static>(cells: usize, law: M) -> Scene<D> {
 
 /// The same on a grid of `axes`.
 fn filled<const D: usize, M: Law + 'static>(axes: [Axis; D], cells: usize, law: M) -> Scene<D> {
-    let positions = lattice([2 * cells; D], 0.5 * H, 0.0);
-    let volume = (0.5 * H).powi(D as i32);
-    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let particles = filling([2 * cells; D], 0.5 * H, 0.0);
     Scene::new(Grid::new(H, axes).unwrap(), Bodies::new(shared(law), particles).unwrap())
 }
 
