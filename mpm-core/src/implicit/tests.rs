@@ -62,13 +62,6 @@ fn standing<const D: usize, M: Law + 'static>(cells: usize, law: M, weight: f64)
     })))
 }
 
-fn bits<const D: usize>(solver: &Solver<D>) -> Vec<u64> {
-    let p = solver.particles();
-    let stress = p.stress.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy]);
-    let places = p.position.iter().flatten().copied();
-    places.chain(stress).map(f64::to_bits).collect()
-}
-
 /// A body with one more particle in a cell of its own, the only one that six unknowns see.
 fn with_a_loner() -> Scene<2> {
     let law = Hencky::new(YOUNG, POISSON).unwrap();
