@@ -75,10 +75,7 @@ impl<const D: usize> DeadForce<D> {
     /// Shares `total` (N) equally among the particles whose reference position satisfies `select`. It
     /// grows as a smooth step over the first `ramp` seconds (0: it is there at once).
     pub fn shared(total: [f64; D], ramp: f64, particles: &Particles<D>, select: impl Fn(&[f64; D]) -> bool) -> Self {
-        let mut loaded = vec![false; particles.len()];
-        for (id, reference) in particles.id.iter().zip(&particles.reference) {
-            loaded[*id as usize] = select(reference);
-        }
+        let loaded = particles.seeded(|k| select(&particles.reference[k]));
         let count = loaded.iter().filter(|&&l| l).count().max(1) as f64;
         Self { loaded, force: total.map(|f| f / count), ramp }
     }
