@@ -11,7 +11,7 @@
 use super::{Law, NeoHookean, Response};
 use crate::error::Error;
 use crate::number::Real;
-use crate::tensor::{SymmetricTensor, determinant};
+use crate::tensor::{SymmetricTensor, determinant, minor};
 use nalgebra::Matrix3;
 
 /// How a step is integrated.
@@ -55,11 +55,7 @@ impl Hypoelastic {
 
 fn inverse<T: Real>(m: &Matrix3<T>) -> Matrix3<T> {
     let scale = T::splat(1.0) / determinant(m);
-    Matrix3::from_fn(|i, j| {
-        let (a, b) = ((j + 1) % 3, (j + 2) % 3);
-        let (c, d) = ((i + 1) % 3, (i + 2) % 3);
-        scale * (m[(a, c)] * m[(b, d)] - m[(a, d)] * m[(b, c)])
-    })
+    Matrix3::from_fn(|i, j| scale * minor(m, j, i))
 }
 
 fn product<T: Real>(a: &Matrix3<T>, b: &Matrix3<T>) -> Matrix3<T> {
