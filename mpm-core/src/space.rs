@@ -11,7 +11,11 @@ use nalgebra::{Matrix3, SMatrix};
 #[inline]
 pub fn embed<const D: usize>(f: &SMatrix<f64, D, D>) -> Matrix3<f64> {
     let mut full = Matrix3::identity();
-    full.fixed_view_mut::<D, D>(0, 0).copy_from(f);
+    for i in 0..D {
+        for j in 0..D {
+            full[(i, j)] = f[(i, j)];
+        }
+    }
     full
 }
 

@@ -8,7 +8,6 @@ use crate::material::{Answers, AnyLaw, SharedLaw};
 use crate::number::{Dual, Real};
 use crate::tensor::{determinant, minor};
 use nalgebra::{Matrix3, SMatrix};
-use std::array::from_fn;
 
 /// Most components of a ΔF.
 pub(crate) const MOST: usize = 9;
@@ -78,7 +77,12 @@ impl Particle<'_> {
     where
         dyn AnyLaw: Answers<T>,
     {
-        let cofactor = from_fn(|k| if k < D * D { minor(f, k / D, k % D) } else { T::default() });
+        let mut cofactor = [T::default(); MOST];
+        for i in 0..D {
+            for j in 0..D {
+                cofactor[D * i + j] = minor(f, i, j);
+            }
+        }
         let mut answer = Response { stress: [T::default(); MOST], pull: T::default(), cofactor };
         let mut scale = T::splat(self.volume);
         let mut pressure = T::default();
@@ -133,17 +137,34 @@ impl Particle<'_> {
     {
         let averaged = averaged.map(|a| Dual::variable(a, D * D));
         let answer = self.respond::<_, D>(&variables::<D, N>(f), averaged);
-        let whole: [[Dual<N>; D]; D] =
-            from_fn(|i| from_fn(|j| answer.stress[D * i + j] + Dual::splat(share) * answer.cofactor[D * i + j]));
-        let by_f = |of: &Dual<N>| -> Square<D> { from_fn(|k| from_fn(|l| of.slope[D * k + l])) };
-        let by_a = |of: &Dual<N>| if averaged.is_some() { of.slope[D * D] } else { 0.0 };
-        Tangent {
-            stress_by_f: whole.each_ref().map(|row| row.each_ref().map(by_f)),
-            stress_by_a: whole.each_ref().map(|row| row.each_ref().map(by_a)),
-            pull_by_f: by_f(&answer.pull),
-            pull_by_a: by_a(&answer.pull),
-            cofactor: from_fn(|i| from_fn(|j| answer.cofactor[D * i + j].value)),
+        let mut tangent = Tangent {
+            stress_by_f: [[[[0.0; D]; D]; D]; D],
+            stress_by_a: [[0.0; D]; D],
+            pull_by_f: [[0.0; D]; D],
+            pull_by_a: 0.0,
+            cofactor: [[0.0; D]; D],
             held: SMatrix::zeros(),
+        };
+        for i in 0..D {
+            for j in 0..D {
+                let place = D * i + j;
+                let cofactor = answer.cofactor[place];
+                let whole = answer.stress[place] + Dual::splat(share) * cofactor;
+                tangent.cofactor[i][j] = cofactor.value;
+                for k in 0..D {
+                    for l in 0..D {
+                        tangent.stress_by_f[i][j][k][l] = whole.slope[D * k + l];
+                    }
+                }
+                if averaged.is_some() {
+                    tangent.stress_by_a[i][j] = whole.slope[D * D];
+                    tangent.pull_by_f[i][j] = answer.pull.slope[place];
+                }
+            }
         }
+        if averaged.is_some() {
+            tangent.pull_by_a = answer.pull.slope[D * D];
+        }
+        tangent
     }
 }

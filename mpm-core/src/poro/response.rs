@@ -60,7 +60,12 @@ impl<const D: usize> Particle<'_, D> {
         dyn AnyLaw: Answers<T>,
     {
         let number = T::splat;
-        let cofactor: [[T; D]; D] = from_fn(|i| from_fn(|j| minor(f, i, j)));
+        let mut cofactor = [[T::default(); D]; D];
+        for (i, row) in cofactor.iter_mut().enumerate() {
+            for (j, entry) in row.iter_mut().enumerate() {
+                *entry = minor(f, i, j);
+            }
+        }
         let effective = self.law.stress(f, self.dt, self.state);
         let volume = number(self.volume);
         let change = determinant(f);

@@ -35,8 +35,8 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
     Fault {
         name: "the tangent is a tenth too soft",
         file: "implicit/response.rs",
-        sound: "row.each_ref().map(by_f)",
-        broken: "row.each_ref().map(|of| by_f(of).map(|row| row.map(|slope| 0.9 * slope)))",
+        sound: "whole.slope[D * k + l]",
+        broken: "0.9 * whole.slope[D * k + l]",
         seen_by: &[(BEAM, "newton")],
     },
     Fault {
@@ -203,8 +203,8 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
     Fault {
         name: "the tangent is a hundredth too soft",
         file: "implicit/response.rs",
-        sound: "answer.stress[D * i + j] + Dual::splat(share) * answer.cofactor[D * i + j]",
-        broken: "(answer.stress[D * i + j] + Dual::splat(share) * answer.cofactor[D * i + j]) * Dual::splat(0.99)",
+        sound: "answer.stress[place] + Dual::splat(share) * cofactor",
+        broken: "(answer.stress[place] + Dual::splat(share) * cofactor) * Dual::splat(0.99)",
         seen_by: &[(BEAM, "quadratic"), (YIELDING, "quadratic")],
     },
     Fault {
