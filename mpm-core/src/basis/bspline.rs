@@ -40,7 +40,7 @@ pub struct BSpline<const S: usize> {
     period: Option<usize>,
 }
 
-/// Linear hat functions, the basis of the original MPM. They interpolate everywhere, so the two wall treatments coincide.
+/// Linear hat functions, the basis of the original MPM. They interpolate everywhere, so that walls treat them alike.
 pub type Linear = BSpline<2>;
 /// Quadratic B-splines, the paper's second basis.
 pub type QuadraticBSpline = BSpline<3>;
