@@ -214,6 +214,11 @@ pub(crate) fn require(ok: bool, what: &'static str, value: f64, allowed: &'stati
     if ok && value.is_finite() { Ok(()) } else { Err(Error::Input { what, value, allowed }) }
 }
 
+/// Checks that there is nothing of what `count` counts.
+pub(crate) fn require_none(count: usize, what: &'static str, allowed: &'static str) -> Result<(), Error> {
+    require(count == 0, what, count as f64, allowed)
+}
+
 /// Checks that `value` is positive and finite.
 pub(crate) fn positive(value: f64, what: &'static str, allowed: &'static str) -> Result<(), Error> {
     require(value > 0.0, what, value, allowed)

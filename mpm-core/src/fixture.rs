@@ -1,18 +1,18 @@
-//! Fixtures for the tests of several solvers.
+//! Fixtures for the tests of several solvers and laws.
 
 use crate::grid::{Axis, Grid};
 use crate::implicit::unknowns::Pattern;
+use crate::material::{AnyLaw, Law, State};
 use crate::memory::Memoryless;
+use crate::number::{EIGHT, Eight};
+use crate::particles::Particles;
 use crate::stage::Constraint;
-use nalgebra::SMatrix;
+use crate::tensor::SymmetricTensor;
+use nalgebra::{Matrix3, SMatrix, Vector3};
+use proptest::prelude::*;
 
-/// Moves the nodes at the faces of the grid, and beyond, as the field u = G (x − c) does.
-pub(crate) struct Affine<const D: usize> {
-    /// G.
-    pub(crate) gradient: SMatrix<f64, D, D>,
-    /// Every coordinate of c (m).
-    pub(crate) centre: f64,
-}
+/// Moves the nodes at the faces of the grid, and beyond, as the field u = G x with this G does.
+pub(crate) struct Affine<const D: usize>(pub(crate) SMatrix<f64, D, D>);
 
 impl<const D: usize> Memoryless for Affine<D> {}
 
@@ -20,8 +20,7 @@ impl<const D: usize> Constraint<D> for Affine<D> {
     fn prescribe(&self, grid: &Grid<D>, position: &[f64; D], axis: usize) -> Option<f64> {
         let on_face = |(x, a): (&f64, &Axis)| *x < a.lo + 1e-9 || *x > a.hi(grid.h) - 1e-9;
         let at_edge = position.iter().zip(&grid.axes).any(on_face);
-        let along = |b: usize| self.gradient[(axis, b)] * (position[b] - self.centre);
-        at_edge.then(|| (0..D).map(along).sum())
+        at_edge.then(|| (0..D).map(|b| self.0[(axis, b)] * position[b]).sum())
     }
 
     fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
@@ -69,9 +68,9 @@ pub(crate) fn apart(a: &[f64], b: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// Particles at the places of a lattice: `count` along every axis, the first of which varies fastest, `spacing` (m)
+/// Particles of 1000 kg/m³ that fill a box: `count` along every axis, the first of which varies fastest, `spacing` (m)
 /// apart from `origin` (m) on.
-pub(crate) fn lattice<const D: usize>(count: [usize; D], spacing: f64, origin: f64) -> Vec<[f64; D]> {
+pub(crate) fn filling<const D: usize>(count: [usize; D], spacing: f64, origin: f64) -> Particles<D> {
     let place = |mut k: usize| {
         count.map(|along| {
             let i = k % along;
@@ -79,5 +78,48 @@ pub(crate) fn lattice<const D: usize>(count: [usize; D], spacing: f64, origin: f
             origin + spacing * (i as f64 + 0.5)
         })
     };
-    (0..count.iter().product()).map(place).collect()
+    let places = (0..count.iter().product()).map(place).collect();
+    Particles::new(places, spacing.powi(D as i32), 1000.0, [0.5 * spacing; D]).unwrap()
+}
+
+/// The deformation gradient of logarithmic stretches along the axes.
+pub(crate) fn stretches(logarithms: [f64; 3]) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::from(logarithms).map(f64::exp))
+}
+
+/// That of simple shear by an angle whose tangent is `tangent`.
+pub(crate) fn sheared(tangent: f64) -> Matrix3<f64> {
+    let mut f = Matrix3::identity();
+    f[(0, 1)] = tangent;
+    f
+}
+
+/// Fewer than `most` increments of the deformation gradient, all of whose entries are those of the identity to `size`.
+pub(crate) fn increments(size: f64, most: usize) -> impl Strategy<Value = Vec<Matrix3<f64>>> {
+    let gradient = prop::array::uniform9(-size..size);
+    prop::collection::vec(gradient.prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a)), 1..most)
+}
+
+/// Steps from undeformed material along increments of the deformation gradient: the last stress and state.
+pub(crate) fn drive<M: Law>(law: &M, path: impl IntoIterator<Item = Matrix3<f64>>) -> (SymmetricTensor, M::State) {
+    let start = (SymmetricTensor::default(), law.initial_state());
+    path.into_iter().fold(start, |(_, state), increment| law.response(&increment, 1.0, &state))
+}
+
+/// Stress and state of eight particles that deform by `delta_f` over a second: side by side, and each alone.
+pub(crate) fn side_by_side<M: Law + 'static>(
+    law: &M,
+    delta_f: &[Matrix3<f64>; EIGHT],
+    states: &mut [M::State; EIGHT],
+) -> [[(SymmetricTensor, M::State); 2]; EIGHT] {
+    let before = *states;
+    let mut rows = Vec::new();
+    before.iter().for_each(|state| M::State::write::<f64>(state, |_, number| rows.push(*number)));
+    let entries: [_; 9] = std::array::from_fn(|n| Eight::new(delta_f.map(|f| f[(n / 3, n % 3)])));
+    let mut stresses = [SymmetricTensor::default(); EIGHT];
+    AnyLaw::update_eight(law, &entries, 1.0, Eight::ONE, &mut rows, &mut stresses);
+    for (state, row) in states.iter_mut().zip(rows.chunks_exact(M::State::NUMBERS)) {
+        *state = M::State::read(|i| row[i]);
+    }
+    std::array::from_fn(|k| [(stresses[k], states[k]), law.response(&delta_f[k], 1.0, &before[k])])
 }

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, positive, require};
 use crate::frame::Frame;
-use crate::memory::{MemoryError, row, rows};
+use crate::memory::{self, MemoryError, row, rows};
 use crate::parallel::{CHUNK, Rows, for_each_piece};
 use crate::tensor::SymmetricTensor;
 use nalgebra::SMatrix;
@@ -200,16 +200,9 @@ impl<const D: usize> Particles<D> {
         }
         let mut seen = vec![false; self.len()];
         for id in &self.id {
-            match seen.get_mut(*id as usize) {
-                Some(seen) if !*seen => *seen = true,
-                _ => {
-                    return Err(MemoryError::Value {
-                        what: "id of a particle",
-                        value: f64::from(*id),
-                        allowed: "each number below the number of particles, once",
-                    });
-                }
-            }
+            let first = seen.get_mut(*id as usize).is_some_and(|seen| !std::mem::replace(seen, true));
+            let allowed = "each number below the number of particles, once";
+            memory::require(first, "id of a particle", f64::from(*id), allowed)?;
         }
         Ok(())
     }

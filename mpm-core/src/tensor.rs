@@ -13,6 +13,13 @@ pub fn determinant<T: Real>(m: &Matrix3<T>) -> T {
     m[(0, 0)] * minor(1, 2) - m[(0, 1)] * minor(0, 2) + m[(0, 2)] * minor(0, 1)
 }
 
+/// The minor of `f` without the row `i` and the column `j`, with its sign.
+#[inline(always)]
+pub(crate) fn minor<T: Real>(f: &Matrix3<T>, i: usize, j: usize) -> T {
+    let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
+    f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
+}
+
 /// A symmetric 3×3 tensor (a stress in Pa, a left Cauchy–Green tensor), or eight of them, or one with its derivatives.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SymmetricTensor<T = f64> {

@@ -40,6 +40,8 @@ pub struct BSpline<const S: usize> {
     period: Option<usize>,
 }
 
+/// Linear hat functions, the basis of the original MPM. They interpolate everywhere, so that walls treat them alike.
+pub type Linear = BSpline<2>;
 /// Quadratic B-splines, the paper's second basis.
 pub type QuadraticBSpline = BSpline<3>;
 /// Cubic B-splines.

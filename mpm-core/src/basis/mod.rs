@@ -6,11 +6,9 @@
 
 mod bspline;
 mod gimp;
-mod linear;
 
-pub use bspline::{BSpline, CubicBSpline, QuadraticBSpline, WallTreatment};
+pub use bspline::{BSpline, CubicBSpline, Linear, QuadraticBSpline, WallTreatment};
 pub use gimp::Gimp;
-pub use linear::Linear;
 
 use crate::grid::Axis;
 use crate::number::{EIGHT, Eight, Lanes, Real};

@@ -87,12 +87,7 @@ impl<const D: usize> Average<D> {
     pub(super) fn project(&self, elements: &Elements<D>, field: &[f64]) -> Vec<f64> {
         let elements = self.other.as_ref().unwrap_or(elements);
         let mut of_nodes = vec![0.0; self.inverse.len()];
-        elements.scatter(0.0, &mut of_nodes, |p, sums| {
-            let weighted = self.volume[p] * field[p];
-            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
-                *sum += w * weighted;
-            }
-        });
+        elements.scatter_values(0.0, &mut of_nodes, |p| self.volume[p] * field[p]);
         for (value, inverse) in of_nodes.iter_mut().zip(&self.inverse) {
             *value *= inverse;
         }

@@ -71,7 +71,7 @@ impl<const D: usize> Solver<D> {
 
     /// The softest motion where nodes weigh as told, by inverse iteration.
     fn softest(&self, setting: &Setting<D>, direct: &mut Direct, weight: &[f64]) -> Option<Motion<D>> {
-        let (unknowns, pattern) = (&setting.unknowns, &setting.pattern);
+        let unknowns = &setting.unknowns;
         let weigh = |(i, x): (usize, &f64)| match unknowns.is_free(i / D, i % D) {
             true => x * weight[unknowns.node[i / D]],
             false => 0.0,
@@ -83,12 +83,7 @@ impl<const D: usize> Solver<D> {
             let size = norm(&x);
             x.iter_mut().for_each(|x| *x /= size);
             let weighed: Vec<f64> = x.iter().enumerate().map(weigh).collect();
-            let mut next = vec![0.0; pattern.len()];
-            for (to, from) in next.chunks_exact_mut(pattern.width).zip(weighed.chunks(D)) {
-                to[..D].copy_from_slice(from);
-            }
-            direct.solve(&mut next);
-            x = next.chunks_exact(pattern.width).flat_map(|next| next[..D].iter().copied()).collect();
+            x = direct.displacements::<D>(&weighed);
             energy = dot(&x, &weighed);
         }
         let mut nodes = vec![[0.0; D]; self.functions.len()];

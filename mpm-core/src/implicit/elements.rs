@@ -7,7 +7,7 @@ use super::interpolation::Interpolation;
 use crate::parallel::for_each_piece;
 use nalgebra::{SMatrix, SVector};
 use std::mem::take;
-use std::ops::{AddAssign, Range};
+use std::ops::{AddAssign, Mul, Range};
 
 /// Units in the last place by which a stress is rounded.
 pub(crate) const LAST_BITS: f64 = 4.0;
@@ -39,18 +39,6 @@ pub(crate) struct Elements<const D: usize> {
     rounding: f64,
 }
 
-/// The order of particles by `body` and element, stable within one.
-pub(crate) fn order<const D: usize>(
-    functions_of: &dyn Interpolation<D>,
-    domains: Domains<D>,
-    body: impl Fn(usize) -> usize,
-) -> Vec<u32> {
-    let elements = of_domains(functions_of, domains);
-    let mut order: Vec<u32> = (0..elements.len() as u32).collect();
-    order.sort_by_key(|p| (body(*p as usize), elements[*p as usize]));
-    order
-}
-
 /// The element of every domain.
 pub(crate) fn of_domains<const D: usize>(functions_of: &dyn Interpolation<D>, domains: Domains<D>) -> Vec<usize> {
     let mut functions = Functions::new();
@@ -62,7 +50,7 @@ pub(crate) fn of_domains<const D: usize>(functions_of: &dyn Interpolation<D>, do
 }
 
 impl<const D: usize> Elements<D> {
-    /// Elements of particles that stand in their [`order`].
+    /// Elements of particles that stand in the order of [their numbers](of_domains).
     pub(crate) fn new(functions_of: &dyn Interpolation<D>, originals: &[usize], domains: Domains<D>) -> Self {
         let support = functions_of.support();
         let count = domains.centre.len();
@@ -104,11 +92,7 @@ impl<const D: usize> Elements<D> {
         for node in &self.node {
             sums[*node] = 0.0;
         }
-        self.scatter(0.0, &mut sums, |p, sums| {
-            for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
-                *sum += w * of[p];
-            }
-        });
+        self.scatter_values(0.0, &mut sums, |p| of[p]);
         sums
     }
 
@@ -116,12 +100,7 @@ impl<const D: usize> Elements<D> {
     pub(crate) fn forces(&self, nodes: usize, of: &[[f64; D]]) -> Vec<SVector<f64, D>> {
         let mut forces = vec![SVector::zeros(); nodes];
         if !of.is_empty() {
-            self.scatter(SVector::zeros(), &mut forces, |p, sums| {
-                let force = SVector::from(of[p]);
-                for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
-                    *sum += force * *w;
-                }
-            });
+            self.scatter_values(SVector::zeros(), &mut forces, |p| SVector::from(of[p]));
         }
         forces
     }
@@ -220,6 +199,21 @@ impl<const D: usize> Elements<D> {
         self.scatter_runs(zero, nodes, &|particles, sums| {
             for p in particles {
                 of(p, sums);
+            }
+        });
+    }
+
+    /// Adds Σ w `of`(particle) to the nodes that see particles; `zero` is that of the type.
+    pub(crate) fn scatter_values<T: Copy + Send + Sync + AddAssign + Mul<f64, Output = T>>(
+        &self,
+        zero: T,
+        nodes: &mut [T],
+        of: impl Fn(usize) -> T + Sync,
+    ) {
+        self.scatter(zero, nodes, |p, sums| {
+            let value = of(p);
+            for (sum, w) in sums.iter_mut().zip(self.seen(p).1) {
+                *sum += value * *w;
             }
         });
     }

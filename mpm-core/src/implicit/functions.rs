@@ -3,7 +3,7 @@
 use crate::lattice::Stencil;
 
 /// The functions that see a place, and which they are.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Functions<const D: usize> {
     /// Equal for all places that the same nodes see.
     pub element: usize,
@@ -19,7 +19,7 @@ impl<const D: usize> Functions<D> {
     /// None yet.
     #[must_use]
     pub fn new() -> Self {
-        Self { element: 0, node: Vec::new(), w: Vec::new(), dw: Vec::new() }
+        Self::default()
     }
 
     /// Those of a stencil.
@@ -40,11 +40,5 @@ impl<const D: usize> Functions<D> {
                 self.dw.push(dw);
             }
         }
-    }
-}
-
-impl<const D: usize> Default for Functions<D> {
-    fn default() -> Self {
-        Self::new()
     }
 }

@@ -19,7 +19,7 @@ struct Cells<const D: usize> {
 }
 
 /// Indices of a place among `counts`, the last of which runs fastest.
-fn indices<const D: usize>(mut place: usize, counts: [usize; D]) -> [usize; D] {
+pub(super) fn indices<const D: usize>(mut place: usize, counts: [usize; D]) -> [usize; D] {
     let mut index = [0; D];
     for a in (0..D).rev() {
         index[a] = place % counts[a];

@@ -1,7 +1,7 @@
 //! Components of nodes that constraints hold.
 
 use super::interpolation::Interpolation;
-use crate::error::{Error, require};
+use crate::error::{Error, require_none};
 use crate::scene::Scene;
 use crate::stage::{Bound, Constraint, holder, require_held};
 
@@ -16,14 +16,9 @@ pub(crate) struct Held {
 
 /// Refuses constraints on one side.
 pub(crate) fn check<const D: usize>(constraints: &[Box<dyn Constraint<D>>]) -> Result<(), Error> {
-    let one_sided = constraints.iter().filter(|c| c.bound() != Bound::Equal);
-    let count = one_sided.count();
-    require(
-        count == 0,
-        "one-sided constraints of a quasi-static run",
-        count as f64,
-        "none: walls of such a run are fixed or rollers",
-    )
+    let one_sided = constraints.iter().filter(|c| c.bound() != Bound::Equal).count();
+    let allowed = "none: walls of such a run are fixed or rollers";
+    require_none(one_sided, "one-sided constraints of a quasi-static run", allowed)
 }
 
 /// Constraint of every component of every node at `time` (s): the first of the scene's constraints that holds it.

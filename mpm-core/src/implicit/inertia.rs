@@ -27,11 +27,6 @@ pub(super) struct Mass {
 }
 
 impl Mass {
-    fn new<const D: usize>(elements: &Elements<D>, nodes: usize, particle: &[f64], lumped: f64) -> Self {
-        let of_nodes = elements.sums(nodes, particle);
-        Self { lumped, particle: particle.to_vec(), node: of_nodes.iter().map(|m| m.max(0.0)).collect() }
-    }
-
     /// Mass of the heaviest node (kg).
     pub(super) fn heaviest(&self) -> f64 {
         self.node.iter().copied().fold(0.0, f64::max)
@@ -49,12 +44,7 @@ impl Mass {
         of: impl Fn(usize) -> SVector<f64, D> + Sync,
     ) -> Vec<SVector<f64, D>> {
         let mut nodes = vec![SVector::zeros(); self.node.len()];
-        elements.scatter(SVector::zeros(), &mut nodes, |p, sums| {
-            let value = of(p) * self.particle[p];
-            for (sum, w) in sums.iter_mut().zip(elements.seen(p).1) {
-                *sum += value * *w;
-            }
-        });
+        elements.scatter_values(SVector::zeros(), &mut nodes, |p| of(p) * self.particle[p]);
         nodes
     }
 
@@ -154,7 +144,8 @@ impl<const D: usize> Inertia<D> {
             TimeRule::Midpoint { lumped } => (lumped, 4.0 / (dt * dt)),
             TimeRule::Newmark { alpha, .. } => (1.0, 1.0 / (alpha * dt * dt)),
         };
-        let mass = Mass::new(elements, nodes, &particles.mass, lumped);
+        let node = elements.sums(nodes, &particles.mass).iter().map(|m| m.max(0.0)).collect();
+        let mass = Mass { lumped, particle: particles.mass.clone(), node };
         let push = mass.scatter(elements, |p| match rule {
             TimeRule::Newmark { alpha, .. } => {
                 let acceleration = SVector::from(particles.acceleration[p]);

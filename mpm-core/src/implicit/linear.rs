@@ -132,6 +132,17 @@ impl Direct {
             LuRef::new_unchecked(symbolic, factors).solve_transpose_in_place_with_conj(Conj::No, right, PAR, stack);
         }
     }
+
+    /// The displacements of nodes that forces `right` give, without forces on what else the nodes of the matrix have.
+    pub(crate) fn displacements<const D: usize>(&mut self, right: &[f64]) -> Vec<f64> {
+        let width = self.pattern.width;
+        let mut x = vec![0.0; self.pattern.len()];
+        for (x, r) in x.chunks_exact_mut(width).zip(right.chunks(D)) {
+            x[..D].copy_from_slice(r);
+        }
+        self.solve(&mut x);
+        x.chunks_exact(width).flat_map(|x| x[..D].iter().copied()).collect()
+    }
 }
 
 /// Scales a matrix to a diagonal of ones, and of the result an estimate of the condition in the 1-norm (Hager 1984,

@@ -283,7 +283,9 @@ impl<const D: usize> Solver<D> {
     /// Puts the particles that the same nodes see side by side.
     fn sort(&mut self) {
         let bodies = &self.scene.bodies;
-        let order = elements::order(self.functions.as_ref(), Domains::of(&bodies.particles), |p| bodies.place_of(p));
+        let element = elements::of_domains(self.functions.as_ref(), Domains::of(&bodies.particles));
+        let mut order: Vec<u32> = (0..element.len() as u32).collect();
+        order.sort_by_key(|p| (bodies.place_of(*p as usize), element[*p as usize]));
         if !order.is_sorted() {
             self.scene.bodies.permute(&order);
             self.ledger.work.sorts += 1;

@@ -8,7 +8,7 @@ use super::functions::Functions;
 use super::interpolation::Interpolation;
 use super::penalty::Penalty;
 use super::settings::Stabilisation;
-use crate::error::{Error, require};
+use crate::error::{Error, require, require_none};
 use crate::grid::Grid;
 
 /// Nodes of an element.
@@ -64,7 +64,7 @@ fn function([x, y]: [f64; 2], [i, j]: [i32; 2]) -> (f64, [f64; 2]) {
 impl Interpolation<2> for Serendipity {
     fn on(grid: Grid<2>) -> Result<Self, Error> {
         let periodic = grid.axes.iter().filter(|a| a.is_periodic()).count();
-        require(periodic == 0, "periodic axes of serendipity elements", periodic as f64, "none")?;
+        require_none(periodic, "periodic axes of serendipity elements", "none")?;
         for (axis, span) in grid.axes.iter().zip(Self::SPAN) {
             let allowed = "a multiple of 2 along x, of 3 along y";
             require(axis.cells.is_multiple_of(span), "cells below serendipity elements", axis.cells as f64, allowed)?;

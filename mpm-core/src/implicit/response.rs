@@ -6,7 +6,7 @@
 
 use crate::material::{Answers, AnyLaw, SharedLaw};
 use crate::number::{Dual, Real};
-use crate::tensor::determinant;
+use crate::tensor::{determinant, minor};
 use nalgebra::{Matrix3, SMatrix};
 
 /// Most components of a ΔF.
@@ -36,13 +36,6 @@ pub(super) struct Response<T> {
 
 /// A component for every pair of axes.
 pub(crate) type Square<const D: usize> = [[f64; D]; D];
-
-/// The minor of `f` without the row `i` and the column `j`, with its sign.
-#[inline(always)]
-pub(crate) fn minor<T: Real>(f: &Matrix3<T>, i: usize, j: usize) -> T {
-    let (a, b, c, d) = ((i + 1) % 3, (i + 2) % 3, (j + 1) % 3, (j + 2) % 3);
-    f[(a, c)] * f[(b, d)] - f[(a, d)] * f[(b, c)]
-}
 
 /// `f`, completed to three dimensions, of variables: the component in the place D i + j is the variable of that number.
 pub(crate) fn variables<const D: usize, const N: usize>(f: &SMatrix<f64, D, D>) -> Matrix3<Dual<N>> {

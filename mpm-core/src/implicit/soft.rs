@@ -1,6 +1,7 @@
 //! The paper's soft stiffness: a small share of the elastic stiffness of the whole mesh, as if it were full.
 
 use super::functions::Functions;
+use super::ghost::indices;
 use super::interpolation::Interpolation;
 use super::penalty::{Moduli, Penalty};
 use super::pieces::gauss;
@@ -19,12 +20,8 @@ pub(super) fn penalties<const D: usize>(
     let mut found = Vec::new();
     let mut functions = Functions::new();
     for k in 0..elements.iter().product() {
-        let mut rest = k;
-        let mut corner = [0.0; D];
-        for a in (0..D).rev() {
-            corner[a] = grid.axes[a].lo + lengths[a] * (rest % elements[a]) as f64;
-            rest /= elements[a];
-        }
+        let element = indices(k, elements);
+        let corner: [f64; D] = std::array::from_fn(|a| grid.axes[a].lo + lengths[a] * element[a] as f64);
         let size = functions_of.support() * D;
         let mut stiffness = DMatrix::zeros(size, size);
         for q in 0..rule.len().pow(D as u32) {

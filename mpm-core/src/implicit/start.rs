@@ -4,7 +4,7 @@ use super::held;
 use super::linear::Direct;
 use super::response::variables;
 use super::{Interpolation, Moduli, Remedy, Settings, Solver, Stabilisation, TimeRule, contact};
-use crate::error::{Error, require};
+use crate::error::{Error, require, require_none};
 use crate::ledger::Ledger;
 use crate::material::AnyLaw;
 use crate::monitor::Convergence;
@@ -32,20 +32,11 @@ impl<const D: usize> Solver<D> {
         let offered = !averages || matches!(settings.onto, Onto::Basis | Onto::Hats | Onto::Cells);
         require(offered, "averages of an implicit run onto blocks or patches", 1.0, "0: the basis, hats or cells")?;
         let laws = || scene.bodies.each.iter().map(|body| &body.law);
-        let one = !averages || scene.bodies.each.len() == 1;
-        require(
-            one,
-            "bodies that a variational F-bar averages over",
-            laws().count() as f64,
-            "1: others take remedy none",
-        )?;
+        let bodies = scene.bodies.each.len();
+        let what = "bodies that a variational F-bar averages over";
+        require(!averages || bodies == 1, what, bodies as f64, "1: others take remedy none")?;
         let slides = scene.bodies.each.iter().filter(|body| body.slides.is_some()).count();
-        require(
-            slides == 0,
-            "bodies that slide in an implicit run",
-            slides as f64,
-            "0: an explicit solver has contact",
-        )?;
+        require_none(slides, "bodies that slide in an implicit run", "0: an explicit solver has contact")?;
         require(
             laws().all(|law| law.conservative()) || !averages,
             "variational F-bar with a law without a potential",

@@ -84,7 +84,7 @@ impl<const D: usize> Equations for System<'_, D> {
             found
         } else {
             self.linear.ledger.work.linear_iterations += 1;
-            Some(self.by_factors(&from.residual))
+            Some(self.linear.direct.displacements::<D>(&from.residual))
         };
         self.linear.ledger.spent.solution += begun.elapsed().as_secs_f64();
         let usable = |x: &Vec<f64>| x.iter().all(|x| x.is_finite());
@@ -181,24 +181,13 @@ impl<const D: usize> System<'_, D> {
         })
     }
 
-    /// The displacements that the factors give for `right`, without forces on what else the matrix has.
-    fn by_factors(&mut self, right: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; self.pattern.len()];
-        for (x, r) in x.chunks_exact_mut(self.pattern.width).zip(right.chunks(D)) {
-            x[..D].copy_from_slice(r);
-        }
-        self.linear.direct.solve(&mut x);
-        let of_nodes = x.chunks_exact(self.pattern.width);
-        of_nodes.flat_map(|x| x[..D].iter().copied()).collect()
-    }
-
     /// Conjugate gradients with the exact stiffness of F̄, preconditioned by the factors of Eq. (13). Where the
     /// stiffness is not positive they stop at what they have.
     fn conjugate_gradients(&mut self, tangents: &[Tangent<D>], right: &[f64], accuracy: f64) -> Option<Vec<f64>> {
         let nodes = self.external.len();
         let mut x = vec![0.0; right.len()];
         let mut rest = right.to_vec();
-        let mut direction = self.by_factors(&rest);
+        let mut direction = self.linear.direct.displacements::<D>(&rest);
         let mut product = dot(&rest, &direction);
         let target = accuracy * norm(right);
         for iteration in 0..MOST_GRADIENTS {
@@ -218,7 +207,7 @@ impl<const D: usize> System<'_, D> {
             for (r, a) in rest.iter_mut().zip(&image) {
                 *r -= length * a;
             }
-            let next = self.by_factors(&rest);
+            let next = self.linear.direct.displacements::<D>(&rest);
             let ahead = dot(&rest, &next);
             let share = ahead / product;
             for (d, z) in direction.iter_mut().zip(&next) {

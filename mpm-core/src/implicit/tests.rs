@@ -3,7 +3,7 @@
 use super::*;
 use crate::Particles;
 use crate::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
-use crate::fixture::lattice;
+use crate::fixture::filling;
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, HenckyJ2, Hypoelastic, JaumannUpdate, NeoHookean, Strength};
@@ -47,9 +47,7 @@ fn full<const D: usize, M: Law + 'static>(cells: usize, law: M) -> Scene<D> {
 
 /// The same on a grid of `axes`.
 fn filled<const D: usize, M: Law + 'static>(axes: [Axis; D], cells: usize, law: M) -> Scene<D> {
-    let positions = lattice([2 * cells; D], 0.5 * H, 0.0);
-    let volume = (0.5 * H).powi(D as i32);
-    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let particles = filling([2 * cells; D], 0.5 * H, 0.0);
     Scene::new(Grid::new(H, axes).unwrap(), Bodies::new(shared(law), particles).unwrap())
 }
 
@@ -62,13 +60,6 @@ fn standing<const D: usize, M: Law + 'static>(cells: usize, law: M, weight: f64)
         force[D - 1] = -weight * t / 1000.0;
         force
     })))
-}
-
-fn bits<const D: usize>(solver: &Solver<D>) -> Vec<u64> {
-    let p = solver.particles();
-    let stress = p.stress.iter().flat_map(|s| [s.xx, s.yy, s.zz, s.xy]);
-    let places = p.position.iter().flatten().copied();
-    places.chain(stress).map(f64::to_bits).collect()
 }
 
 /// A body with one more particle in a cell of its own, the only one that six unknowns see.

@@ -196,28 +196,3 @@ impl<M: Law + 'static> AnyLaw for M {
         Law::energy(self, &read::<M, f64>(row))
     }
 }
-
-#[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-
-    /// Stress and state of eight particles that deform by `delta_f` over `dt` (s): side by side, and each alone.
-    pub(crate) fn side_by_side<M: Law + 'static>(
-        law: &M,
-        delta_f: &[Matrix3<f64>; EIGHT],
-        dt: f64,
-        states: &mut [M::State; EIGHT],
-    ) -> [[(SymmetricTensor, M::State); 2]; EIGHT] {
-        let before = *states;
-        let mut rows = Vec::new();
-        before.iter().for_each(|state| M::State::write::<f64>(state, |_, number| rows.push(*number)));
-        let entries: [_; 9] = std::array::from_fn(|n| Eight::pack(|k| delta_f[k][(n / 3, n % 3)]));
-        let mut stresses = [SymmetricTensor::default(); EIGHT];
-        AnyLaw::update_eight(law, &entries, dt, Eight::ONE, &mut rows, &mut stresses);
-        let rows = rows.chunks_exact(M::State::NUMBERS);
-        for (state, row) in states.iter_mut().zip(rows) {
-            *state = M::State::read(|i| row[i]);
-        }
-        std::array::from_fn(|k| [(stresses[k], states[k]), law.response(&delta_f[k], dt, &before[k])])
-    }
-}

@@ -11,7 +11,7 @@
 use super::{Law, NeoHookean, Response};
 use crate::error::Error;
 use crate::number::Real;
-use crate::tensor::{SymmetricTensor, determinant};
+use crate::tensor::{SymmetricTensor, determinant, minor};
 use nalgebra::Matrix3;
 
 /// How a step is integrated.
@@ -55,11 +55,7 @@ impl Hypoelastic {
 
 fn inverse<T: Real>(m: &Matrix3<T>) -> Matrix3<T> {
     let scale = T::splat(1.0) / determinant(m);
-    Matrix3::from_fn(|i, j| {
-        let (a, b) = ((j + 1) % 3, (j + 2) % 3);
-        let (c, d) = ((i + 1) % 3, (i + 2) % 3);
-        scale * (m[(a, c)] * m[(b, d)] - m[(a, d)] * m[(b, c)])
-    })
+    Matrix3::from_fn(|i, j| scale * minor(m, j, i))
 }
 
 fn product<T: Real>(a: &Matrix3<T>, b: &Matrix3<T>) -> Matrix3<T> {
@@ -75,17 +71,6 @@ fn identity_plus<T: Real>(scale: f64, m: &Matrix3<T>) -> Matrix3<T> {
 
 fn skew_part<T: Real>(m: &Matrix3<T>) -> Matrix3<T> {
     Matrix3::from_fn(|i, j| T::splat(0.5) * (m[(i, j)] - m[(j, i)]))
-}
-
-fn sum<T: Real>(a: &SymmetricTensor<T>, b: &SymmetricTensor<T>) -> SymmetricTensor<T> {
-    SymmetricTensor {
-        xx: a.xx + b.xx,
-        yy: a.yy + b.yy,
-        zz: a.zz + b.zz,
-        xy: a.xy + b.xy,
-        yz: a.yz + b.yz,
-        xz: a.xz + b.xz,
-    }
 }
 
 impl Law for Hypoelastic {
@@ -118,7 +103,7 @@ impl Law for Hypoelastic {
                 };
                 let strain = SymmetricTensor::symmetric_part(&at_middle);
                 let strained = self.hooke(&strain).push_forward(&cayley(0.25));
-                sum(&stress.push_forward(&cayley(0.5)), &strained)
+                stress.push_forward(&cayley(0.5)).add(&strained)
             }
             JaumannUpdate::Linear => {
                 let spin = skew_part(&gradient);
@@ -127,7 +112,7 @@ impl Law for Hypoelastic {
                 let twice = turned + turned.transpose();
                 let strain = SymmetricTensor::symmetric_part(&gradient);
                 let turning = SymmetricTensor::symmetric_part(&twice);
-                sum(&sum(stress, &turning), &self.hooke(&strain))
+                stress.add(&turning).add(&self.hooke(&strain))
             }
         };
         (stress, stress)
@@ -150,7 +135,9 @@ impl Law for Hypoelastic {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixture::{drive, sheared};
     use nalgebra::Rotation3;
+    use std::iter::repeat_n;
 
     fn law(update: JaumannUpdate) -> Hypoelastic {
         Hypoelastic::new(1e5, 0.2, update).unwrap()
@@ -182,13 +169,7 @@ mod tests {
     fn simple_shear_oscillates_and_errs_by_the_order_of_the_update() {
         let error = |update, steps: u32| {
             let material = law(update);
-            let mut state = material.initial_state();
-            let step = 2.0 / f64::from(steps);
-            let mut shear = Matrix3::identity();
-            shear[(0, 1)] = step;
-            for _ in 0..steps {
-                state = material.response(&shear, 1.0, &state).1;
-            }
+            let (state, _) = drive(&material, repeat_n(sheared(2.0 / f64::from(steps)), steps as usize));
             let (xy, xx) = (material.mu * 2.0_f64.sin(), material.mu * (1.0 - 2.0_f64.cos()));
             (state.xy - xy).hypot(state.xx - xx) / material.mu
         };

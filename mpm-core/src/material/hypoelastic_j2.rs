@@ -84,8 +84,10 @@ impl Law for HypoelasticJ2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixture::{drive, sheared, stretches};
     use crate::material::HenckyJ2;
     use nalgebra::{Rotation3, Vector3};
+    use std::iter::repeat_n;
 
     /// Young's modulus (Pa), and a strength κ (Pa) that yields at an elastic strain of half a percent.
     const YOUNG: f64 = 100.0;
@@ -99,14 +101,6 @@ mod tests {
         HypoelasticJ2::new(YOUNG, 0.3, JaumannUpdate::Split, strength).unwrap()
     }
 
-    fn drive<M: Law>(law: &M, increment: &Matrix3<f64>, steps: usize) -> (SymmetricTensor, M::State) {
-        let mut last = (SymmetricTensor::default(), law.initial_state());
-        for _ in 0..steps {
-            last = law.response(increment, 1.0, &last.1);
-        }
-        last
-    }
-
     /// Plane-strain shortening: the stress difference is 2c = √2 κ(ε), with ε from 2μ (√2 e − √(3/2) ε) = κ(ε), a
     /// linear equation until the residual strength. A step has the strain 2 tanh(e/2) at its middle, e + O(e³).
     #[test]
@@ -116,8 +110,7 @@ mod tests {
         for (end, softens) in [(0.02_f64, true), (0.3, false)] {
             let steps = 1000;
             let step = end / f64::from(steps);
-            let axes = Vector3::new(-step, step, 0.0).map(f64::exp);
-            let (stress, state) = drive(&law, &Matrix3::from_diagonal(&axes), steps as usize);
+            let (stress, state) = drive(&law, repeat_n(stretches([-step, step, 0.0]), steps as usize));
             let elastic = 2.0 * mu * 2.0_f64.sqrt() * end;
             let stiffness = 2.0 * mu * 1.5_f64.sqrt();
             let plastic =
@@ -132,8 +125,7 @@ mod tests {
     #[test]
     fn a_rigid_turn_turns_the_stress() {
         let law = law(softening());
-        let shear = Matrix3::new(1.0, 0.02, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-        let (_, before) = drive(&law, &shear, 3);
+        let (_, before) = drive(&law, repeat_n(sheared(0.02), 3));
         let turn = Rotation3::new(Vector3::new(0.3, -0.5, 0.8)).into_inner();
         let (stress, after) = law.response(&turn, 1.0, &before);
         let exact = before.elastic.push_forward(&turn);
@@ -146,9 +138,9 @@ mod tests {
     #[test]
     fn its_hyperelastic_counterpart_differs_by_the_elastic_strain() {
         let hyperelastic = HenckyJ2::new(YOUNG, 0.3, softening()).unwrap();
-        let shear = Matrix3::new(1.0, 1e-3, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-        let (stress, state) = drive(&law(softening()), &shear, 100);
-        let (other, after) = drive(&hyperelastic, &shear, 100);
+        let path = || repeat_n(sheared(1e-3), 100);
+        let (stress, state) = drive(&law(softening()), path());
+        let (other, after) = drive(&hyperelastic, path());
         assert!(state.plastic_strain > 0.04);
         assert!((state.plastic_strain / after.plastic_strain - 1.0).abs() < 0.005);
         assert!((stress.to_matrix() - other.to_matrix()).norm() < 0.01 * KAPPA);

@@ -43,42 +43,26 @@ impl<const N: usize> Default for Dual<N> {
     }
 }
 
-impl<const N: usize> Add for Dual<N> {
-    type Output = Self;
+/// Operators: what they make of the values a and b, and its derivatives by both.
+macro_rules! operators {
+    ($($operation:ident, $name:ident, ($a:ident, $b:ident): $value:expr, $derivatives:expr;)*) => {$(
+        impl<const N: usize> $operation for Dual<N> {
+            type Output = Self;
 
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        self.join(other, self.value + other.value, [1.0, 1.0])
-    }
+            #[inline]
+            fn $name(self, other: Self) -> Self {
+                let ($a, $b) = (self.value, other.value);
+                self.join(other, $value, $derivatives)
+            }
+        }
+    )*};
 }
 
-impl<const N: usize> Sub for Dual<N> {
-    type Output = Self;
-
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self.join(other, self.value - other.value, [1.0, -1.0])
-    }
-}
-
-impl<const N: usize> Mul for Dual<N> {
-    type Output = Self;
-
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        self.join(other, self.value * other.value, [other.value, self.value])
-    }
-}
-
-impl<const N: usize> Div for Dual<N> {
-    type Output = Self;
-
-    #[inline]
-    fn div(self, other: Self) -> Self {
-        let quotient = self.value / other.value;
-        let by_this = 1.0 / other.value;
-        self.join(other, quotient, [by_this, -quotient * by_this])
-    }
+operators! {
+    Add, add, (a, b): a + b, [1.0, 1.0];
+    Sub, sub, (a, b): a - b, [1.0, -1.0];
+    Mul, mul, (a, b): a * b, [b, a];
+    Div, div, (a, b): a / b, [1.0 / b, -(a / b) * (1.0 / b)];
 }
 
 impl<const N: usize> Neg for Dual<N> {

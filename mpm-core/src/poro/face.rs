@@ -52,10 +52,7 @@ impl<const D: usize> Face<D> {
         (axis, end): (usize, End),
         acts: Acts<D>,
     ) -> Self {
-        let mut chosen = vec![false; particles.len()];
-        for (id, reference) in particles.id.iter().zip(&particles.reference) {
-            chosen[*id as usize] = select(reference);
-        }
+        let chosen = particles.seeded(|k| select(&particles.reference[k]));
         Self { sides: chosen.iter().filter(|taken| **taken).count(), chosen, axis, end, acts }
     }
 

@@ -326,13 +326,8 @@ impl<const D: usize> Solver<D> {
         let mut nodes = Vec::new();
         for source in &self.water.sources {
             nodes.resize(self.water_space.functions.len(), 0.0);
-            water.scatter(0.0, &mut nodes, |p, sums| {
-                let share = source(&particles.reference[p], span);
-                let volume = share * particles.reference_volume[p];
-                for (sum, w) in sums.iter_mut().zip(water.seen(p).1) {
-                    *sum += w * volume;
-                }
-            });
+            let volume = |p: usize| source(&particles.reference[p], span) * particles.reference_volume[p];
+            water.scatter_values(0.0, &mut nodes, volume);
         }
         nodes
     }

@@ -6,11 +6,12 @@
 
 use super::settings::VolumeRate;
 use super::water::{Gravity, Medium};
-use crate::implicit::response::{MOST, Square, minor, variables};
+use crate::implicit::response::{MOST, Square, variables};
 use crate::material::{Answers, AnyLaw, SharedLaw};
 use crate::number::{Dual, Real};
-use crate::tensor::determinant;
+use crate::tensor::{determinant, minor};
 use nalgebra::{Matrix3, SMatrix};
+use std::array::from_fn;
 
 /// A particle at the start of a step.
 pub(super) struct Particle<'a, const D: usize> {
@@ -118,15 +119,14 @@ impl<const D: usize> Particle<'_, D> {
         dyn AnyLaw: Answers<Dual<N>>,
     {
         let answer = self.respond(&variables::<D, N>(f), Dual::variable(p, D * D), slope);
-        let by_f =
-            |of: &Dual<N>| -> Square<D> { std::array::from_fn(|k| std::array::from_fn(|l| of.slope[D * k + l])) };
+        let by_f = |of: &Dual<N>| -> Square<D> { from_fn(|k| from_fn(|l| of.slope[D * k + l])) };
         let each = |i: usize, j: usize| &answer.stress[D * i + j];
         Slopes {
-            stress_by_f: std::array::from_fn(|i| std::array::from_fn(|j| by_f(each(i, j)))),
-            stress_by_p: std::array::from_fn(|i| std::array::from_fn(|j| each(i, j).slope[D * D])),
+            stress_by_f: from_fn(|i| from_fn(|j| by_f(each(i, j)))),
+            stress_by_p: from_fn(|i| from_fn(|j| each(i, j).slope[D * D])),
             rate_by_f: by_f(&answer.rate),
-            flow_by_f: std::array::from_fn(|i| by_f(&answer.flow[i])),
-            mobility: std::array::from_fn(|i| std::array::from_fn(|j| answer.mobility[D * i + j].value)),
+            flow_by_f: from_fn(|i| by_f(&answer.flow[i])),
+            mobility: from_fn(|i| from_fn(|j| answer.mobility[D * i + j].value)),
             mass_by_f: by_f(&answer.mass),
         }
     }

@@ -5,7 +5,7 @@ use super::plate::ties;
 use super::pores::{Pores, check_width, grown, keep_before_walls};
 use super::step::solid_shares;
 use super::{Moduli, OfHats, PressureSpace, Settings, Solver, Space, Tangent, Water};
-use crate::error::{Error, Fault, positive, require};
+use crate::error::{Error, Fault, positive, require, require_none};
 use crate::grid::{Axis, Grid};
 use crate::implicit::failure::Failure;
 use crate::implicit::held;
@@ -24,12 +24,8 @@ fn grid_of_pressure<const D: usize>(grid: &Grid<D>, space: PressureSpace) -> Res
         return Ok(*grid);
     }
     for axis in &grid.axes {
-        require(
-            axis.cells.is_multiple_of(2),
-            "cells of an axis on two grids",
-            axis.cells as f64,
-            "even: a cell of the pressure spans two cells along every axis",
-        )?;
+        let allowed = "even: a cell of the pressure spans two cells along every axis";
+        require(axis.cells.is_multiple_of(2), "cells of an axis on two grids", axis.cells as f64, allowed)?;
     }
     let coarse = |axis: &Axis| Axis { cells: axis.cells / 2, ..*axis };
     Grid::new(2.0 * grid.h, grid.axes.each_ref().map(coarse))
@@ -82,16 +78,11 @@ impl<const D: usize> Solver<D> {
         settings: Settings,
     ) -> Result<Self, Error> {
         let sliding = scene.bodies.each.iter().filter(|body| body.slides.is_some()).count();
-        require(sliding == 0, "bodies with water that slide", sliding as f64, "none: they stick where they touch")?;
+        require_none(sliding, "bodies with water that slide", "none: they stick where they touch")?;
         let laws = || scene.bodies.each.iter().map(|body| &body.law);
         settings.check(laws().all(|law| law.conservative()))?;
-        let contacts = scene.contacts.len();
-        require(
-            contacts == 0,
-            "contacts of a body with water",
-            contacts as f64,
-            "none: rigid bodies are constraints in such a scene",
-        )?;
+        let allowed = "none: rigid bodies are constraints in such a scene";
+        require_none(scene.contacts.len(), "contacts of a body with water", allowed)?;
         held::check(&scene.constraints)?;
         let moduli: Vec<Moduli> = laws().map(|law| moduli_of(law.as_ref(), settings.dt)).collect();
         for own in &moduli {

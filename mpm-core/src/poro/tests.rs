@@ -4,14 +4,14 @@ use super::*;
 use crate::basis::{Gimp, Linear};
 use crate::bodies::Bodies;
 use crate::error::Fault;
-use crate::fixture::{Affine, lattice};
+use crate::fixture::{Affine, filling};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
 use crate::material::{Hencky, ImprovedHencky};
 use crate::material::{Law, shared};
-use crate::memory::{Memory, Memoryless};
+use crate::memory::Memory;
 use crate::space::embed;
-use crate::stage::{Constraint, End, Wall, WallKind};
+use crate::stage::{End, RigidNodes, Wall, WallKind};
 use crate::{Part, Particles};
 use nalgebra::{SMatrix, SVector};
 
@@ -56,16 +56,22 @@ fn standing<const D: usize, M: Law + 'static>(
     let grid = Grid::new(H, axes).unwrap();
     let mut count = [2 * WIDE; D];
     count[D - 1] = 2 * HIGH;
-    let positions = lattice(count, 0.5 * H, 0.0);
-    let volume = (0.5 * H).powi(D as i32);
-    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
-    let particles = particles.deformed(deformed);
+    let particles = filling(count, 0.5 * H, 0.0).deformed(deformed);
     let rollers = (0..D).flat_map(|axis| {
         let wall = move |end| Wall::new(axis, end, WallKind::Roller);
         let both = axis + 1 < D;
         [Some(wall(End::Lo)), both.then(|| wall(End::Hi))]
     });
     Scene::new(grid, Bodies::new(shared(law), particles).unwrap()).constrain_all(rollers.flatten())
+}
+
+fn water<const D: usize>() -> Water<D> {
+    Water::new(POROSITY, kozeny_carman())
+}
+
+/// Ghost penalties, and steps in which pressures diffuse over this `area` (m²).
+fn diffusing(area: f64) -> Settings {
+    Settings::new(area / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
 }
 
 fn straight<const D: usize>(x: &[f64; D]) -> ([f64; D], SMatrix<f64, D, D>) {
@@ -91,9 +97,12 @@ fn loaded<const D: usize, I: OfHats<D>>(traction: f64, settings: Settings) -> So
     let top = (D - 1, End::Hi);
     let mut force = [0.0; D];
     force[D - 1] = -traction;
-    let water = Water::new(POROSITY, kozeny_carman())
-        .face(Face::loaded(particles, topmost, top, move |_| force))
-        .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H));
+    let water = water().face(Face::loaded(particles, topmost, top, move |_| force)).face(Face::drained(
+        particles,
+        topmost,
+        top,
+        100.0 * KAPPA / H,
+    ));
     Solver::new::<I>(scene, water, settings).unwrap()
 }
 
@@ -109,15 +118,11 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
         gradient = f - SMatrix::identity();
     }
     let grid = Grid::new(H, [Axis::walls(0.0, HIGH); D]).unwrap();
-    let positions = lattice([2 * HIGH; D], 0.5 * H, 0.0);
-    let volume = (0.5 * H).powi(D as i32);
-    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
     let law = porous();
-    let scene =
-        Scene::new(grid, Bodies::new(shared(law), particles).unwrap()).constrain(Affine { gradient, centre: 0.0 });
-    let water = Water::new(POROSITY, kozeny_carman());
+    let body = Bodies::new(law, filling([2 * HIGH; D], 0.5 * H, 0.0)).unwrap();
+    let scene = Scene::new(grid, body).constrain(Affine(gradient));
     // One held node fixes a pressure that nothing else does.
-    let water = water.drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
+    let water = water().drained(move |x| !isochoric || x.iter().all(|x| *x == 0.0));
     let settings = Settings { tolerance: 1e-13, ..Settings::new(1.0).ghosts(0.1, 0.01) };
     let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     solver.step().unwrap();
@@ -132,6 +137,7 @@ fn reproduces_affine_fields<const D: usize, I: OfHats<D>>(isochoric: bool) {
     }
     // And has the domains of a body that starts so.
     let begun = p.reference.iter().map(|x| {
+        let volume = (0.5 * H).powi(D as i32);
         let particles = Particles::new(vec![*x], volume, 1000.0, [0.25 * H; D]).unwrap();
         let mut body = Bodies::new(law, particles.deformed(|x| ((f * SVector::from(*x)).into(), f))).unwrap();
         start::begin(&I::on(grid).unwrap(), &mut body.particles, 0).unwrap()
@@ -161,7 +167,7 @@ fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
     acceleration[D - 1] = -10.0;
     let depth = |x: &[f64; D]| 1e4 * (TOP - x[D - 1]);
     for tangent in [Tangent::Symmetric, Tangent::Consistent] {
-        let water = Water::new(POROSITY, kozeny_carman())
+        let water = water()
             .gravity(Gravity { water: 1000.0, grains: 1000.0, acceleration })
             .start(depth)
             .drained(|x| x[D - 1] > TOP - 1e-9);

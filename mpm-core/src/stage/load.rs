@@ -80,7 +80,7 @@ impl<const D: usize> DeadForce<D> {
         particles: &Particles<D>,
         select: impl Fn(&[f64; D]) -> bool,
     ) -> Self {
-        let shares = by_id(particles, 0.0, particles.reference.iter().map(select).map(f64::from).enumerate());
+        let shares = particles.seeded(|k| f64::from(select(&particles.reference[k])));
         let count = shares.iter().sum::<f64>().max(1.0);
         Self { shares, force: total.map(|f| f / count), amplitude }
     }

@@ -2,7 +2,7 @@
 
 use super::stiffness::{REMEDIES, slope_of_the_forces, strained};
 use super::*;
-use crate::contact::{Barrier, RigidContact, RigidFace};
+use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
 use crate::simulation::Part;
 use crate::stage::Amplitude;
 use crate::stage::Gravity;
@@ -24,37 +24,50 @@ pub(super) fn floor(particles: &Particles<2>, gap: f64, force: f64) -> RigidCont
     RigidContact::new(face.touching(particles, gap), barrier)
 }
 
-/// K with B″ is the slope of the forces with B′, of all bases and with F̄.
-fn tangent_has_the_barrier<const D: usize, I: Interpolation<2>, M: Law + 'static>(law: M, remedy: (Remedy, Onto)) {
-    let mut solver = strained::<2, I, M>(law, remedy);
+/// K with B″ is the slope of the forces with B′, of all bases and with F̄; and of sticks that were stretched before, so
+/// far that no trial changes what they do: all particles that touch do the same.
+pub(super) fn tangent_has_contact<const D: usize, I: Interpolation<D>, M: Law + 'static>(
+    law: M,
+    remedy: (Remedy, Onto),
+    friction: Option<Friction>,
+) {
+    let mut solver = strained::<D, I, M>(law, remedy);
     // Deep enough that some particles are beyond it and gaps of others are near a tenth of it.
-    let face = RigidFace::half_space(1, End::Lo, 0.0).unwrap();
+    let face = RigidFace::half_space(D - 1, End::Lo, 0.0).unwrap();
     let particles = &solver.scene.bodies.particles;
     let barrier = Barrier::carrying(1e3, 0.5 * H).unwrap();
-    let contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier);
+    let mut contact = RigidContact::new(face.touching(particles, 0.2 * H), barrier);
+    let along = [0.2 * H, -0.1 * H];
+    let before = std::array::from_fn(|a| if a == D - 1 { 0.0 } else { along[a] });
+    if let Some(friction) = friction {
+        contact = contact.with_friction(friction);
+        contact.attach(particles.len());
+        contact.stick(particles.id.iter().map(|id| (*id, before)));
+    }
     solver.scene.contacts.push(contact);
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.bodies, 1.0);
     let rest = vec![0.0; setting.unknowns.len()];
     let touching = step.trial(&rest, solver.functions.len()).unwrap().pushes;
-    assert!(touching.len() > 4 && touching.len() < particles.len());
+    assert!(touching.len() > 4 && touching.len() < solver.particles().len());
+    let slips = friction.is_some_and(|friction| friction.coefficient().is_some());
+    for push in touching.iter().filter(|_| friction.is_some()) {
+        assert_eq!(push.stretch != before, slips);
+        assert!(push.force[0] < 0.0);
+    }
     slope_of_the_forces(&solver);
 }
 
 #[test]
 fn the_tangent_of_contact_is_the_slope_of_its_forces() {
     for remedy in [REMEDIES[0], REMEDIES[1], REMEDIES[4]] {
-        every_basis!(tangent_has_the_barrier, 2, rubber(), remedy);
+        every_basis!(tangent_has_contact, 2, rubber(), remedy, None);
     }
 }
 
 /// A block that flies at a floor from a gap (m).
 fn thrown(rule: TimeRule, dt: f64, gap: f64) -> Solver<2> {
-    let axes = [Axis::open(0.0, CELLS + 4); 2];
-    let mut scene = filled(axes, CELLS, rubber());
-    for x in &mut scene.bodies.particles.position {
-        *x = x.map(|x| x + 2.0 * H);
-    }
+    let mut scene = filled([Axis::open(-2.0 * H, CELLS + 4); 2], CELLS, rubber());
     scene.bodies.particles.velocity.fill([0.1, -SPEED]);
     let contact = floor(&scene.bodies.particles, gap, FORCE);
     let settings = Settings { tolerance: 1e-12, ..Settings::new(dt).rule(rule) };
@@ -152,11 +165,7 @@ fn a_correction_stops_before_the_first_gap_that_it_closes() {
 
 /// Between rollers, on the barrier: the floor bears the weight to Newton's tolerance.
 fn rests<const D: usize, I: Interpolation<2>, M: Law + 'static>(law: M, remedy: Remedy) {
-    let axes = [Axis::walls(0.0, CELLS), Axis::open(0.0, CELLS + 4)];
-    let mut scene = filled(axes, CELLS, law);
-    for x in &mut scene.bodies.particles.position {
-        x[1] += 2.0 * H;
-    }
+    let scene = filled([Axis::walls(0.0, CELLS), Axis::open(-2.0 * H, CELLS + 4)], CELLS, law);
     let weight = 1e3 * (H * CELLS as f64).powi(2);
     let each = weight / (2 * CELLS) as f64;
     let contact = floor(&scene.bodies.particles, 0.5 * DISTANCE, each);

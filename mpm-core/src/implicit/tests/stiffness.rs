@@ -30,11 +30,9 @@ pub(super) fn strained<const D: usize, I: Interpolation<D>, M: Law + 'static>(
     solver
 }
 
-fn random_values(count: usize, held: &[Option<f64>], size: f64, seed: usize) -> Vec<f64> {
-    let free = |k: usize| {
-        if held[k].is_some() { 0.0 } else { size * noise(seed + k) }
-    };
-    (0..count).map(free).collect()
+fn random_values(held: &[Option<f64>], size: f64, seed: usize) -> Vec<f64> {
+    let pairs = held.iter().enumerate();
+    pairs.map(|(k, held)| if held.is_some() { 0.0 } else { size * noise(seed + k) }).collect()
 }
 
 /// K x is what central differences of the forces along x extrapolate to, and the matrix times x where it is assembled.
@@ -50,10 +48,8 @@ pub(super) fn slope_of_the_forces<const D: usize>(solver: &Solver<D>) {
     let setting = solver.setting(1.0);
     let step = setting.step(&solver.scene.bodies, 1.0);
     let nodes = solver.functions.len();
-    let count = setting.unknowns.len();
     let held = &setting.unknowns.held;
-    let u = random_values(count, held, 0.02 * H, 7);
-    let x = random_values(count, held, H, 1000);
+    let (u, x) = (random_values(held, 0.02 * H, 7), random_values(held, H, 1000));
     let forces = |s: f64| {
         let at: Vec<f64> = u.iter().zip(&x).map(|(u, x)| u + s * x).collect();
         let trial = step.trial(&at, nodes).unwrap();
@@ -102,8 +98,7 @@ fn asymmetry<const D: usize, I: Interpolation<D>, M: Law + 'static>(law: M, reme
     let step = setting.step(&solver.scene.bodies, 1.0);
     let nodes = solver.functions.len();
     let count = setting.unknowns.len();
-    let u = random_values(count, &setting.unknowns.held, 0.02 * H, 7);
-    let trial = step.trial(&u, nodes).unwrap();
+    let trial = step.trial(&random_values(&setting.unknowns.held, 0.02 * H, 7), nodes).unwrap();
     let tangents = step.tangents(&trial);
     let mut matrix = DMatrix::zeros(count, count);
     for j in (0..count).filter(|j| setting.unknowns.held[*j].is_none()) {

@@ -1,9 +1,8 @@
 //! Clay on paths that have closed forms, and what thermodynamics asks of any.
 
 use super::*;
-use crate::material::any::tests::side_by_side;
+use crate::fixture::{increments, side_by_side, stretches};
 use crate::number::Dual;
-use nalgebra::Vector3;
 use proptest::prelude::*;
 
 mod paths;
@@ -45,20 +44,6 @@ fn surface(law: &CamClay, [p, q, pc]: [f64; 3]) -> (f64, [f64; 3]) {
     (value, [rho, a, b])
 }
 
-fn stretches(axes: [f64; 3]) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::from(axes).map(f64::exp))
-}
-
-/// Paths of many steps, and some of a step or two by a tenth.
-fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
-    let path = |size: f64, steps: usize| {
-        let increment =
-            prop::array::uniform9(-size..size).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
-        prop::collection::vec(increment, 1..steps)
-    };
-    prop_oneof![path(3e-3, 30), path(0.02, 6), path(0.1, 3)]
-}
-
 /// The plastic strain of a step, tension positive: what the elastic trial strain is more than the elastic strain.
 fn plastic_step(before: &VolumetricState, increment: &Matrix3<f64>, after: &VolumetricState) -> Matrix3<f64> {
     let trial = before.elastic.push_forward(increment).ln().to_matrix();
@@ -68,7 +53,8 @@ fn plastic_step(before: &VolumetricState, increment: &Matrix3<f64>, after: &Volu
 proptest! {
     #[test]
     fn clay_stays_within_its_surface_flows_by_its_rule_and_dissipates(
-        path in increments(),
+        // Paths of many steps, and some of a step or two by a tenth.
+        path in prop_oneof![increments(3e-3, 30), increments(0.02, 6), increments(0.1, 3)],
         overconsolidation in 1.0..8.0_f64,
     ) {
         for (alpha, gamma) in shapes() {
@@ -254,7 +240,7 @@ fn eight_are_as_one_where_some_flow() {
         };
         let mut states = [law.initial_state(); 8];
         for _ in 0..3 {
-            let both = side_by_side(&law, &std::array::from_fn(increment), 1.0, &mut states);
+            let both = side_by_side(&law, &std::array::from_fn(increment), &mut states);
             for (k, [(stress, state), (alone, expected)]) in both.iter().enumerate() {
                 let apart = (stress.to_matrix() - alone.to_matrix()).norm();
                 assert!(apart < 1e-10 * PRECONSOLIDATION, "{k}: {apart}");

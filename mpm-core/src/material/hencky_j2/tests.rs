@@ -1,11 +1,12 @@
 //! Plastic flow against closed forms.
 
 use super::*;
-use crate::material::any::tests::side_by_side;
+use crate::fixture::{drive, increments, sheared, side_by_side, stretches};
 use crate::material::strength::ACCURACY;
 use crate::number::{Dual, EIGHT};
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
+use std::iter::repeat_n;
 
 /// Young's modulus (Pa), Poisson's ratio and κ of a body that yields at an elastic strain of half a percent.
 const YOUNG: f64 = 100.0;
@@ -30,32 +31,13 @@ fn deviator(stress: &SymmetricTensor, f_determinant: f64) -> SymmetricTensor {
     stress.deviator().scale_add_identity(f_determinant, 0.0)
 }
 
-/// Steps from undeformed material along increments of the deformation gradient; the last stress and state.
-fn drive(law: &HenckyJ2, increments: &[Matrix3<f64>]) -> (SymmetricTensor, ElastoplasticState) {
-    let mut last = law.response(&Matrix3::identity(), 1.0, &law.initial_state());
-    for increment in increments {
-        last = law.response(increment, 1.0, &last.1);
-    }
-    last
-}
-
-fn stretches(axes: [f64; 3]) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::from(axes).map(f64::exp))
-}
-
-fn increments() -> impl Strategy<Value = Vec<Matrix3<f64>>> {
-    let increment =
-        prop::array::uniform9(-0.05..0.05_f64).prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a));
-    prop::collection::vec(increment, 1..20)
-}
-
 fn rotations() -> impl Strategy<Value = Matrix3<f64>> {
     prop::array::uniform3(-3.0..3.0_f64).prop_map(|a| Rotation3::new(Vector3::from(a)).into_inner())
 }
 
 proptest! {
     #[test]
-    fn flow_keeps_the_volume_dissipates_and_ends_on_the_surface(path in increments()) {
+    fn flow_keeps_the_volume_dissipates_and_ends_on_the_surface(path in increments(0.05, 20)) {
         for law in [perfect(), softening(), softening_linearly()] {
             let mut state = law.initial_state();
             let mut determinant = 1.0;
@@ -107,7 +89,7 @@ proptest! {
                     }
                     Matrix3::identity() + gradient * 10.0_f64.powf(size[k])
                 });
-                for [(stress, state), (alone, expected)] in side_by_side(&law, &increment, 1.0, &mut states) {
+                for [(stress, state), (alone, expected)] in side_by_side(&law, &increment, &mut states) {
                     let apart = (stress.to_matrix() - alone.to_matrix()).norm();
                     prop_assert!(apart < 1e-13 * YOUNG, "{apart}");
                     let apart = (state.elastic.to_matrix() - expected.elastic.to_matrix()).norm();
@@ -120,9 +102,9 @@ proptest! {
 
     /// A turned path gives turned stresses, wherever on the path the turning happens.
     #[test]
-    fn rotations_turn_the_stress_and_nothing_else(path in increments(), q in rotations()) {
+    fn rotations_turn_the_stress_and_nothing_else(path in increments(0.05, 20), q in rotations()) {
         for law in [perfect(), softening(), softening_linearly()] {
-            let (stress, state) = drive(&law, &path);
+            let (stress, state) = drive(&law, path.iter().copied());
             let mut turned = path.clone();
             turned[0] *= q;
             let half = path.len() / 2;
@@ -130,7 +112,7 @@ proptest! {
             for increment in &mut turned[half + 1..] {
                 *increment = q * *increment * q.transpose();
             }
-            let (found, after) = drive(&law, &turned);
+            let (found, after) = drive(&law, turned);
             let expected = q * stress.to_matrix() * q.transpose();
             prop_assert!((found.to_matrix() - expected).norm() < 1e-11 * YOUNG);
             prop_assert!((after.plastic_strain - state.plastic_strain).abs() < 1e-12);
@@ -145,8 +127,7 @@ fn uniaxial_strain_follows_its_closed_form() {
     let (bulk, shear) = (law.elasticity.bulk_modulus, law.elasticity.shear_modulus);
     for steps in [1, 7] {
         for end in [0.003_f64, 0.02, 0.5, -0.5] {
-            let path = vec![stretches([end / f64::from(steps), 0.0, 0.0]); steps as usize];
-            let (stress, state) = drive(&law, &path);
+            let (stress, state) = drive(&law, repeat_n(stretches([end / f64::from(steps), 0.0, 0.0]), steps as usize));
             let elastic = 2.0 * shear * (2.0_f64 / 3.0).sqrt() * end.abs();
             let norm = elastic.min(KAPPA);
             let axial = bulk * end + (2.0_f64 / 3.0).sqrt() * norm * end.signum();
@@ -167,7 +148,7 @@ fn a_bar_yields_at_the_uniaxial_strength_of_the_convention() {
     let yielding = strength / YOUNG;
     let elastic = stretches([yielding, -RATIO * yielding, -RATIO * yielding]);
     let flowing = stretches([0.05, -0.025, -0.025]);
-    let (stress, state) = drive(&law, &[elastic, flowing]);
+    let (stress, state) = drive(&law, [elastic, flowing]);
     let determinant = ((1.0 - 2.0 * RATIO) * yielding).exp();
     assert!((stress.xx * determinant / strength - 1.0).abs() < 1e-12);
     assert!(stress.yy.abs() < 1e-12 * strength && stress.zz.abs() < 1e-12 * strength);
@@ -180,7 +161,7 @@ fn plane_strain_yields_at_the_undrained_strength() {
     let shear_strength = 0.2;
     let strength = Strength::undrained(shear_strength).unwrap();
     let law = HenckyJ2::new(YOUNG, RATIO, strength).unwrap();
-    let (stress, _) = drive(&law, &[stretches([-0.1, 0.1, 0.0])]);
+    let (stress, _) = drive(&law, [stretches([-0.1, 0.1, 0.0])]);
     assert!((stress.yy - stress.xx - 2.0 * shear_strength).abs() < 1e-13);
     assert!(stress.zz.abs() < 1e-13 && stress.xy == 0.0);
 }
@@ -193,10 +174,7 @@ fn simple_shear_flows_at_its_closed_form_and_converges_with_first_order() {
     let stretch = KAPPA / (8.0_f64.sqrt() * law.elasticity.shear_modulus);
     let exact = [KAPPA / (2.0_f64.sqrt() * (2.0 * stretch).cosh()), KAPPA * (2.0 * stretch).tanh() / 2.0_f64.sqrt()];
     let errors = [2e-3, 1e-3, 5e-4].map(|step| {
-        let mut increment = Matrix3::identity();
-        increment[(0, 1)] = step;
-        let count = (0.5_f64 / step).round() as usize;
-        let (stress, _) = drive(&law, &vec![increment; count]);
+        let (stress, _) = drive(&law, repeat_n(sheared(step), (0.5_f64 / step).round() as usize));
         // Rounding of a thousand steps, times the modulus.
         assert!((stress.yy + stress.xx).abs() < 1e-10 && stress.zz.abs() < 1e-10);
         [stress.xy - exact[0], stress.xx - exact[1]]
@@ -228,8 +206,7 @@ fn softening_is_integrated_exactly_where_the_direction_stays() {
         }
         for steps in [1, 10, 1000] {
             let step = end / f64::from(steps);
-            let path = vec![stretches([-step, step, 0.0]); steps as usize];
-            let (stress, state) = drive(&law, &path);
+            let (stress, state) = drive(&law, repeat_n(stretches([-step, step, 0.0]), steps as usize));
             assert!((state.plastic_strain - lo).abs() < 1e-12, "{steps} {end}");
             let kappa = law.strength.at(lo).0;
             assert!(((stress.yy - stress.xx) / (2.0_f64.sqrt() * kappa) - 1.0).abs() < 1e-10);
@@ -266,11 +243,7 @@ fn the_slope_of_the_flow_does_not_lag() {
 #[test]
 fn softening_under_turning_flow_is_of_first_order() {
     let law = softening();
-    let shear = |step: f64| {
-        let mut increment = Matrix3::identity();
-        increment[(0, 1)] = step;
-        drive(&law, &vec![increment; (0.2 / step).round() as usize])
-    };
+    let shear = |step: f64| drive(&law, repeat_n(sheared(step), (0.2 / step).round() as usize));
     let values = [2e-3, 1e-3, 5e-4, 2.5e-4].map(|step| shear(step).0.xy);
     let differences = [0, 1, 2].map(|k| values[k + 1] - values[k]);
     for pair in differences.windows(2) {

@@ -2,21 +2,6 @@
 
 use super::*;
 
-/// Moves all nodes upwards at one velocity (m/s).
-struct Carried(f64);
-
-impl Memoryless for Carried {}
-
-impl<const D: usize> Constraint<D> for Carried {
-    fn prescribe(&self, _: &Grid<D>, _: &[f64; D], axis: usize) -> Option<f64> {
-        Some(if axis + 1 == D { self.0 } else { 0.0 })
-    }
-
-    fn seen_from(self: Box<Self>, _: &crate::Frame<D>) -> Box<dyn Constraint<D>> {
-        self
-    }
-}
-
 /// Cells of a body along an axis, empty ones before it and on the whole.
 const BODY: usize = 4;
 const BEFORE: usize = 3;
@@ -25,22 +10,25 @@ const ALL: usize = 12;
 /// Water at rest in a body that is carried up through the cells keeps its pressure, linear below the top: no increment
 /// varies within a cell, or bends from cell to cell.
 fn is_carried_along<const D: usize, I: OfHats<D>>(settings: Settings) {
-    let positions = lattice([2 * BODY; D], 0.5 * H, BEFORE as f64 * H);
-    let volume = (0.5 * H).powi(D as i32);
-    let particles = Particles::new(positions, volume, 1000.0, [0.25 * H; D]).unwrap();
+    let particles = filling([2 * BODY; D], 0.5 * H, BEFORE as f64 * H);
     let top = (BEFORE + BODY) as f64 * H;
     let uppermost = move |x: &[f64; D]| x[D - 1] > top - 0.5 * H;
     let face = Face::drained(&particles, uppermost, (D - 1, End::Hi), 100.0 * KAPPA / H);
     let mut acceleration = [0.0; D];
     acceleration[D - 1] = -10.0;
-    let water = Water::new(POROSITY, kozeny_carman())
+    let water = water()
         .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration })
         .start(move |x| 1e4 * (top - x[D - 1]))
         .face(face);
     let grid = Grid::new(H, [Axis::open(0.0, ALL); D]).unwrap();
-    let speed = 0.23 * H / settings.dt;
-    let body = Bodies::new(porous(), particles).unwrap();
-    let scene = Scene::new(grid, body).constrain(Carried(speed));
+    let mut velocity = [Some(0.0); D];
+    velocity[D - 1] = Some(0.23 * H / settings.dt);
+    let all_nodes = RigidNodes {
+        extent: [[f64::NEG_INFINITY, f64::INFINITY]; D],
+        velocity,
+        amplitude: crate::stage::Amplitude::Rise(0.0),
+    };
+    let scene = Scene::new(grid, Bodies::new(porous(), particles).unwrap()).constrain(all_nodes);
     let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
     for step in 1..=12 {
         solver.step().unwrap();
@@ -68,12 +56,9 @@ fn water_at_rest_is_carried_through_the_cells() {
 #[test]
 fn pressures_are_extrapolated_to_the_nearest_image_by_volumes() {
     let grid = Grid::new(H, [Axis::periodic(0.0, HIGH)]).unwrap();
-    let positions = lattice([2 * HIGH], 0.5 * H, 0.0);
-    let particles = Particles::new(positions, 0.5 * H, 1000.0, [0.25 * H]).unwrap();
-    let scene = Scene::new(grid, Bodies::new(porous(), particles).unwrap());
-    let water = Water::new(POROSITY, kozeny_carman());
+    let scene = Scene::new(grid, Bodies::new(porous(), filling([2 * HIGH], 0.5 * H, 0.0)).unwrap());
     let settings = Settings::new(1.0).pressure_space(PressureSpace::Projected { strength: 1.0 });
-    let mut solver = Solver::<1>::new::<Means<1>>(scene, water, settings).unwrap();
+    let mut solver = Solver::<1>::new::<Means<1>>(scene, water(), settings).unwrap();
     let k = std::f64::consts::TAU / TOP;
     let places = solver.particles().position.clone();
     solver.pores.pressure = places.iter().map(|x| (k * x[0]).sin()).collect();
@@ -123,11 +108,8 @@ fn water_from_within_swells_a_body() {
     for space in SPACES {
         let scene = standing::<2, _>(porous(), straight);
         let volume: f64 = scene.bodies.particles.reference_volume.iter().sum();
-        let rates = [3e-3, 2e-3];
-        let mut water = Water::new(POROSITY, kozeny_carman());
-        for rate in rates {
-            water = water.source(move |x, [begin, end]| rate * x[1] * (end - begin));
-        }
+        let source = |rate: f64| move |x: &[f64; 2], [begin, end]: [f64; 2]| rate * x[1] * (end - begin);
+        let water = water().source(source(3e-3)).source(source(2e-3));
         let settings = Settings::new(2.0).pressure_space(space);
         let mut solver = Solver::<2>::new::<Means<2>>(scene, water, settings).unwrap();
         solver.advance(2).unwrap();
@@ -150,8 +132,7 @@ fn a_dry_body_carries_no_water() {
     dry.step().unwrap();
     assert!(dry.water().is_none() && dry.pressure_nodes().is_empty());
     assert!(dry.field(Field::PorePressure).is_empty() && dry.field(Field::Porosity).is_empty());
-    let water = Water::new(POROSITY, kozeny_carman());
-    let wet = Solver::<2>::new::<Hats<2>>(scene(), water, Settings::new(1.0)).unwrap();
+    let wet = Solver::<2>::new::<Hats<2>>(scene(), water(), Settings::new(1.0)).unwrap();
     let (solid, both) = (wet.solid_space.functions.len() as u64, wet.work().nodes);
     assert_eq!(dry.work().nodes, solid);
     assert_eq!(both, solid + wet.water_space.functions.len() as u64);

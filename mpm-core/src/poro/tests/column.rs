@@ -52,9 +52,8 @@ fn imbalance<const D: usize, I: OfHats<D>>(settings: Settings) -> f64 {
 
 #[test]
 fn the_exact_rate_loses_no_water() {
-    let dt = 0.05 / (KAPPA * MODULUS);
     for pressure_space in SPACES {
-        let settings = Settings::new(dt).ghosts(0.1, 0.01).pressure_space(pressure_space);
+        let settings = diffusing(0.05).pressure_space(pressure_space);
         assert!(imbalance::<1, Means<1>>(settings) < 1e-8);
         assert!(imbalance::<2, Means<2>>(settings) < 1e-8);
         let logarithmic = settings.volume_rate(VolumeRate::Logarithmic).tangent(Tangent::Consistent);
@@ -66,34 +65,24 @@ fn the_exact_rate_loses_no_water() {
 /// Settlement and pressures of a column are those of a bar, in the plane and in space.
 #[test]
 fn a_column_is_a_bar_in_any_dimension() {
-    fn settled<const D: usize, I: OfHats<D>>(space: PressureSpace) -> Vec<f64> {
-        let settings = Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).pressure_space(space);
-        let mut solver = loaded::<D, I>(0.2 * MODULUS, settings);
-        solver.advance(2).unwrap();
-        let p = solver.particles();
-        let mut rows: Vec<(f64, [f64; 3])> = (0..p.len())
-            .map(|k| {
-                let x = p.position[k];
-                let values = [x[D - 1], solver.pores.pressure[k], p.jacobian[k]];
-                (p.reference[k][D - 1], values)
-            })
-            .collect();
-        rows.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let across = rows.len() / (2 * HIGH);
-        for row in rows.chunks(across) {
-            for (_, values) in row {
-                for (a, b) in values.iter().zip(row[0].1) {
-                    assert!((a - b).abs() < 1e-7 * b.abs(), "{a} {b}");
-                }
-            }
-        }
-        rows.chunks(across).flat_map(|row| row[0].1).collect()
-    }
-    let agree = |a: &[f64], b: &[f64]| {
+    fn agree(a: &[f64], b: &[f64]) {
         for (a, b) in a.iter().zip(b) {
             assert!((a - b).abs() < 1e-7 * b.abs(), "{a} {b}");
         }
-    };
+    }
+    fn settled<const D: usize, I: OfHats<D>>(space: PressureSpace) -> Vec<f64> {
+        let mut solver = loaded::<D, I>(0.2 * MODULUS, diffusing(0.05).pressure_space(space));
+        solver.advance(2).unwrap();
+        let p = solver.particles();
+        let values = |k: usize| [p.position[k][D - 1], solver.pores.pressure[k], p.jacobian[k]];
+        let mut rows: Vec<usize> = (0..p.len()).collect();
+        rows.sort_by(|j, k| p.reference[*j][D - 1].total_cmp(&p.reference[*k][D - 1]));
+        let across = rows.len() / (2 * HIGH);
+        for row in rows.chunks(across) {
+            row.iter().for_each(|k| agree(&values(*k), &values(row[0])));
+        }
+        rows.chunks(across).flat_map(|row| values(row[0])).collect()
+    }
     for space in SPACES {
         let bar = settled::<1, Means<1>>(space);
         agree(&settled::<2, Means<2>>(space), &bar);
@@ -106,12 +95,7 @@ fn a_column_is_a_bar_in_any_dimension() {
 #[test]
 fn newton_converges_quadratically() {
     let of = |tangent: Tangent, predictor: Predictor| {
-        let settings = Settings {
-            tangent,
-            predictor,
-            tolerance: 1e-11,
-            ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
-        };
+        let settings = Settings { tangent, predictor, tolerance: 1e-11, ..diffusing(0.05) };
         let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
         solver.advance(2).unwrap();
         let places = solver.particles().position.iter();
@@ -172,8 +156,7 @@ fn pores_that_close_are_a_typed_error() {
 /// Twenty times the modulus at once, drained: an undamped correction would close the pores.
 #[test]
 fn pores_stay_open_under_any_load() {
-    let settings = Settings::new(100.0 / (KAPPA * MODULUS)).ghosts(0.1, 0.01).tangent(Tangent::Consistent);
-    let mut solver = loaded::<1, Means<1>>(20.0 * MODULUS, settings);
+    let mut solver = loaded::<1, Means<1>>(20.0 * MODULUS, diffusing(100.0).tangent(Tangent::Consistent));
     solver.step().unwrap();
     for n in solver.field(Field::Porosity) {
         assert!(n > 0.0 && n < 0.5 * POROSITY, "{n}");
@@ -192,15 +175,11 @@ fn grains_settle_under_their_weight_in_water() {
     let heavier = 1600.0 * 10.0 * (1.0 - POROSITY);
     let scene = standing::<1, _>(porous(), straight);
     let top = Face::drained(&scene.bodies.particles, topmost, (0, End::Hi), 1e4 * KAPPA / H);
-    let water = Water::new(POROSITY, kozeny_carman())
+    let water = water()
         .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration: [-10.0] })
         .start(|x| 1e4 * (TOP - x[0]))
         .face(top);
-    let settings = Settings {
-        growth: 2.0,
-        tangent: Tangent::Consistent,
-        ..Settings::new(0.01 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
-    };
+    let settings = Settings { growth: 2.0, tangent: Tangent::Consistent, ..diffusing(0.01) };
     let mut solver = Solver::<1>::new::<Means<1>>(scene, water, settings).unwrap();
     solver.advance(14).unwrap();
     let p = solver.particles();
@@ -217,8 +196,7 @@ fn the_number_of_threads_changes_no_bit() {
     let of = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
         pool.unwrap().install(|| {
-            let settings = Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01);
-            let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, settings);
+            let mut solver = loaded::<2, Means<2>>(0.3 * MODULUS, diffusing(0.05));
             solver.advance(3).unwrap();
             solver.save().unwrap()
         })
@@ -230,8 +208,7 @@ fn the_number_of_threads_changes_no_bit() {
 #[test]
 fn nothing_is_forgotten() {
     for pressure_space in SPACES {
-        let settings =
-            Settings { pressure_space, growth: 1.1, ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01) };
+        let settings = Settings { pressure_space, growth: 1.1, ..diffusing(0.05) };
         let new = || loaded::<2, Means<2>>(0.3 * MODULUS, settings);
         let mut whole = new();
         whole.step().unwrap();
@@ -252,11 +229,7 @@ fn nothing_is_forgotten() {
 fn where_newton_begins_does_not_matter() {
     for (share, told) in [(1e-6, 10), (0.3, 18)] {
         for predictor in [Predictor::Particles, Predictor::Zero] {
-            let settings = Settings {
-                predictor,
-                tangent: Tangent::Consistent,
-                ..Settings::new(0.05 / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
-            };
+            let settings = Settings { predictor, tangent: Tangent::Consistent, ..diffusing(0.05) };
             let mut solver = loaded::<2, Means<2>>(share * MODULUS, settings);
             solver.advance(5).unwrap();
             assert_eq!(solver.work().newton_iterations, told, "{predictor:?}");
@@ -267,19 +240,19 @@ fn where_newton_begins_does_not_matter() {
 /// A body that starts deformed has the domains, and so the equations, of one that a step has deformed so.
 #[test]
 fn a_start_that_is_deformed_has_deformed_domains() {
-    let f = |x: &[f64; 2]| ([x[0], 0.8 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 0.8]]));
-    let scene = standing::<2, _>(porous(), f);
-    let water = || Water::new(POROSITY, kozeny_carman());
-    let solver = Solver::<2>::new::<Means<2>>(scene, water(), Settings::new(1.0)).unwrap();
+    type Deformed = fn(&[f64; 2]) -> ([f64; 2], SMatrix<f64, 2, 2>);
+    fn begun<I: OfHats<2>>(f: Deformed) -> Result<Solver<2>, Error> {
+        Solver::new::<I>(standing(porous(), f), water(), Settings::new(1.0))
+    }
+    let squeezed: Deformed = |x| ([x[0], 0.8 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 0.8]]));
+    let solver = begun::<Means<2>>(squeezed).unwrap();
     let half_size = solver.pores.half_size.iter();
     for (l, volume) in half_size.zip(&solver.particles().volume) {
         assert!((l[0] - 0.25 * H).abs() < 1e-12 && (l[1] - 0.2 * H).abs() < 1e-12);
         assert!((4.0 * l[0] * l[1] - volume).abs() < 1e-11 * volume);
     }
     // Sheared: extents along the axes are those of the affine image, brought to its volume.
-    let sheared = |x: &[f64; 2]| (*x, SMatrix::from([[1.0, 0.3], [0.0, 1.1]]));
-    let scene = standing::<2, _>(porous(), sheared);
-    let solver = Solver::<2>::new::<Means<2>>(scene, water(), Settings::new(1.0)).unwrap();
+    let solver = begun::<Means<2>>(|x| (*x, SMatrix::from([[1.0, 0.3], [0.0, 1.1]]))).unwrap();
     // Those on the floor end there.
     let half_size = solver.pores.half_size.iter();
     for (l, x) in half_size.zip(&solver.particles().position) {
@@ -287,14 +260,12 @@ fn a_start_that_is_deformed_has_deformed_domains() {
         assert!((l[0] - 0.25 * H).abs() < 1e-12 && (l[1] - high).abs() < 1e-12);
     }
     // Too long for means over a cell at most, and by so much; hats know no domain.
-    let stretched = |x: &[f64; 2]| ([x[0], 0.5 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 2.2]]));
-    let begun = Solver::<2>::new::<Means<2>>(standing::<2, _>(porous(), stretched), water(), Settings::new(1.0));
-    match begun.err() {
+    let stretched: Deformed = |x| ([x[0], 0.5 * x[1]], SMatrix::from([[1.0, 0.0], [0.0, 2.2]]));
+    match begun::<Means<2>>(stretched).err() {
         Some(Error::Breakdown { step: 0, fault: Fault::WideDomain(cells), .. }) => {
             assert!((cells - 0.55).abs() < 1e-12)
         }
         other => panic!("{other:?}"),
     }
-    let scene = standing::<2, _>(porous(), stretched);
-    assert!(Solver::<2>::new::<Hats<2>>(scene, water(), Settings::new(1.0)).is_ok());
+    assert!(begun::<Hats<2>>(stretched).is_ok());
 }

@@ -21,8 +21,7 @@ fn unfitted(height: f64, settings: Settings) -> Solver<1> {
     let floor = Wall::new(0, End::Lo, WallKind::Roller);
     let body = Bodies::new(porous(), particles).unwrap();
     let scene = Scene::new(fitted.grid, body).constrain(floor);
-    let water = Water::new(POROSITY, kozeny_carman()).face(load).face(drain);
-    Solver::new::<Means<1>>(scene, water, settings).unwrap()
+    Solver::new::<Means<1>>(scene, water().face(load).face(drain), settings).unwrap()
 }
 
 /// Settlements over the height after 1, 10 and 40 steps.

@@ -2,10 +2,6 @@
 
 use super::*;
 
-fn water<const D: usize>() -> Water<D> {
-    Water::new(POROSITY, kozeny_carman())
-}
-
 fn refused<const D: usize>(scene: Scene<D>, water: Water<D>, what: &str) {
     match Solver::<D>::new::<Hats<D>>(scene, water, Settings::new(1.0)).err() {
         Some(error @ Error::Input { .. }) => {

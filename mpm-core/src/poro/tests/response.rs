@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Vector3};
 fn an_answer_is_pulled_back_to_the_start() {
     let f = Matrix3::new(1.05, 0.1, -0.04, 0.02, 0.93, 0.06, -0.08, 0.03, 1.1);
     let (grains, density, g) = (2600.0, 1000.0, [0.3, 0.2, -10.0]);
-    let water = Water::<3>::new(POROSITY, kozeny_carman()).gravity(Gravity { water: density, grains, acceleration: g });
+    let water = water::<3>().gravity(Gravity { water: density, grains, acceleration: g });
     let (volume, jacobian, p, slope) = (0.3, 1.02, 2e3, [5e4, -8e4, 3e4]);
     let law = porous();
     let state = law.initial_state();

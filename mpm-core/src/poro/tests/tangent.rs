@@ -15,7 +15,7 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D> {
     let top = (D - 1, End::Hi);
     let mut acceleration = [0.3; D];
     acceleration[D - 1] = -10.0;
-    let water = Water::new(POROSITY, kozeny_carman())
+    let water = water()
         .gravity(Gravity { water: 1000.0, grains: 2600.0, acceleration })
         .face(Face::drained(particles, topmost, top, 100.0 * KAPPA / H))
         .plate(Plate::new(D - 1, uppermost, |_| -1e3));
@@ -25,15 +25,9 @@ fn strained<const D: usize, I: OfHats<D>>(settings: Settings) -> Solver<D> {
 }
 
 /// Displacements and pressures of random size.
-fn random(setting: &Setting<2>, seed: usize) -> Vec<f64> {
-    sized(setting.unknowns.displacements, setting.unknowns.count, seed)
-}
-
-fn sized(displacements: usize, count: usize, seed: usize) -> Vec<f64> {
-    let of = |k: usize| {
-        if k < displacements { 0.02 * H } else { 0.1 * MODULUS }
-    };
-    (0..count).map(|k| of(k) * noise(seed + k)).collect()
+fn random<const D: usize>(setting: &Setting<D>, seed: usize) -> Vec<f64> {
+    let size = |k: usize| if k < setting.unknowns.displacements { 0.02 * H } else { 0.1 * MODULUS };
+    (0..setting.unknowns.count).map(|k| size(k) * noise(seed + k)).collect()
 }
 
 /// K x is what central differences of the residual along x extrapolate to, of both equations.
@@ -43,8 +37,7 @@ fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
     let dt = H * H / (KAPPA * MODULUS);
     let setting = solver.setting(dt, Vec::new()).unwrap();
     let step = solver.equations(&setting, dt);
-    let (displacements, count) = (setting.unknowns.displacements, setting.unknowns.count);
-    let (at, x) = (sized(displacements, count, 7), sized(displacements, count, 1000));
+    let (at, x) = (random(&setting, 7), random(&setting, 1000));
     let residual = |s: f64| {
         let moved: Vec<f64> = at.iter().zip(&x).map(|(u, x)| u + s * x).collect();
         step.residual(&step.trial(&moved).unwrap())
@@ -52,7 +45,8 @@ fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
     let (exact, known) = slope(|s| residual(-s));
     let values = step.matrix(&step.trial(&at).unwrap());
     let product = multiply(&setting.pattern, &values, &x);
-    for part in [0..displacements, displacements..count] {
+    let displacements = setting.unknowns.displacements;
+    for part in [0..displacements, displacements..setting.unknowns.count] {
         // Rounding of forces and volumes over the least step.
         let rounding = 200.0 * f64::EPSILON * norm(&residual(0.0)[part.clone()]) / 1e-3;
         let error = apart(&product[part.clone()], &exact[part.clone()]);
@@ -67,21 +61,17 @@ fn matrix_is_the_slope<const D: usize, I: OfHats<D>>(settings: Settings) {
 
 #[test]
 fn the_matrix_is_the_slope_of_the_residual() {
+    let consistent = Settings::new(1.0).ghosts(0.1, 0.01).tangent(Tangent::Consistent);
     for pressure_space in SPACES {
         for volume_rate in [VolumeRate::Exact, VolumeRate::Logarithmic] {
-            let settings = Settings::new(1.0)
-                .ghosts(0.1, 0.01)
-                .pressure_space(pressure_space)
-                .volume_rate(volume_rate)
-                .tangent(Tangent::Consistent);
+            let settings = consistent.pressure_space(pressure_space).volume_rate(volume_rate);
             matrix_is_the_slope::<1, Hats<1>>(settings);
             matrix_is_the_slope::<1, Means<1>>(settings);
             matrix_is_the_slope::<2, Hats<2>>(settings);
             matrix_is_the_slope::<2, Means<2>>(settings);
         }
     }
-    let settings = Settings::new(1.0).ghosts(0.1, 0.01).tangent(Tangent::Consistent);
-    matrix_is_the_slope::<3, Means<3>>(settings);
+    matrix_is_the_slope::<3, Means<3>>(consistent);
 }
 
 /// The largest difference between entries and their mirrors, over the largest entry, of the matrix that is scaled to a

@@ -1,6 +1,8 @@
 //! Paths of the laboratory, against closed forms and an integration of the rates.
 
 use super::*;
+use crate::fixture::{drive, sheared};
+use std::iter::repeat_n;
 
 /// The elastic volume strain at a pressure, and the bulk modulus there, by secants of the closed form
 /// p = −K v/n + ½ K v² (1 − n)/n².
@@ -122,10 +124,7 @@ fn undrained_shear_strain_converges_with_first_order() {
     let [low, _] = bisect([law.initial_volume, law.initial_volume + 0.02], before);
     let exact = pressure(low);
     let errors = [40, 80, 160].map(|steps| {
-        let mut state = law.initial_state();
-        for _ in 0..steps {
-            state = law.response(&undrained(end / f64::from(steps)), 1.0, &state).1;
-        }
+        let (_, state) = drive(&law, repeat_n(undrained(end / f64::from(steps)), steps as usize));
         stresses(&law, &state)[0] / exact - 1.0
     });
     for pair in errors.windows(2) {
@@ -181,17 +180,12 @@ fn shear_ends_in_the_critical_state_of_any_shape() {
     for (alpha, gamma) in shapes() {
         for start in [0.2, 1.0] {
             let law = clay(start * PRECONSOLIDATION).shaped(alpha, gamma).unwrap();
-            let mut state = law.initial_state();
-            let mut increment = Matrix3::identity();
-            increment[(0, 1)] = 2e-3;
-            for _ in 0..1000 {
-                state = law.response(&increment, 1.0, &state).1;
-            }
+            let (_, state) = drive(&law, repeat_n(sheared(2e-3), 1000));
             let [p, q, pc] = stresses(&law, &state);
             for ratio in [p / (0.5 * gamma * pc), q / (RATIO * p)] {
                 assert!((ratio - 1.0).abs() < 1e-3, "{alpha} {gamma}: {ratio}");
             }
-            let next = law.response(&increment, 1.0, &state).1;
+            let next = law.response(&sheared(2e-3), 1.0, &state).1;
             assert!((next.plastic_volume - state.plastic_volume).abs() < 1e-6);
         }
     }
@@ -236,11 +230,7 @@ fn one_dimensional_compression_converges_to_its_rates() {
     // The rates keep their surface.
     assert!(surface(&law, exact).0.abs() < 1e-6, "{exact:?}");
     let errors = [50, 100, 200].map(|steps| {
-        let mut state = law.initial_state();
-        for _ in 0..steps {
-            let increment = stretches([-end / f64::from(steps), 0.0, 0.0]);
-            state = law.response(&increment, 1.0, &state).1;
-        }
+        let (_, state) = drive(&law, repeat_n(stretches([-end / f64::from(steps), 0.0, 0.0]), steps as usize));
         let found = stresses(&law, &state);
         [0, 1, 2].map(|i| found[i] / exact[i] - 1.0)
     });

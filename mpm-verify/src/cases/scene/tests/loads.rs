@@ -122,7 +122,7 @@ fn a_layer_answers_its_base_as_dalembert_says() {
 }
 
 /// Half a particle beyond the dashpots throws back the share k s/4 of a wave at most, s a particle's size; the surface doubles
-/// it. The pulse has left after three seconds, and its short waves, which are slower, half a second later.
+/// it. The pulse has left after three seconds; dispersion leaves slow short waves behind.
 #[test]
 fn waves_come_in_and_leave_through_an_absorbing_side() {
     let supports = LAYER.find("[[supports]]").unwrap()..LAYER.find("[solver]").unwrap();
@@ -138,7 +138,8 @@ fn waves_come_in_and_leave_through_an_absorbing_side() {
         let exact = 2.0 * pulse(time - 1.0);
         let most = (dispersed(2.0) + thrown_back) * 2.0 * STROKE;
         assert!((top - exact).abs() < most, "{time}: {top} of {exact}");
-        assert!(time < 3.6 || fastest < thrown_back * 1e-3, "{time}: {fastest}");
+        let left = dispersed(4.0) + thrown_back;
+        assert!(time < 3.2 || fastest < left * 1e-3, "{time}: {fastest}");
     }
 }
 
@@ -184,7 +185,8 @@ fn a_traction_is_the_stress_of_a_column() {
     let gone = COLUMN.replace("end = \"hi\" }", "end = \"hi\", amplitude = \"gone\" }").replace("[solver]", table);
     let gone = gone.replace("duration_s = 1", "duration_s = 2");
     let (_, _, rows) = run(&read(&gone).unwrap());
-    assert!(last(&rows[..1], "displacement_max (m)") > 0.17 && last(&rows, "displacement_max (m)") < 1e-9, "{rows:?}");
+    let [pressed, freed] = [&rows[..1], &rows[..]].map(|rows| last(rows, "displacement_max (m)"));
+    assert!(pressed > 0.17 && freed < 0.01 * pressed && last(&rows, "b_y (N/m)").abs() < 1e-7, "{rows:?}");
 }
 
 #[test]
@@ -201,10 +203,10 @@ fn loads_that_say_too_little_or_too_much_are_named_with_their_line() {
             "knots = [[1, 0], [1, 1]]".into(),
             &["line 16", "time of an amplitude = 1", "rising"],
         ),
-        (LAYER, base, base.replace("pulse", "quake"), &["line 20", "no amplitude \"quake\"", "has pulse"]),
-        (LAYER, base, format!("{base}, rise_s = 1"), &["line 20", "either rise_s or amplitude"]),
+        (LAYER, base, base.replace("pulse", "quake"), &["line 19", "no amplitude \"quake\"", "has pulse"]),
+        (LAYER, base, format!("{base}, rise_s = 1"), &["line 19", "either rise_s or amplitude"]),
         (LAYER, base, "velocity_m_s = { x = 0.001, y = 0 }".into(), &["line 16", "nothing names", "pulse"]),
-        (LAYER, "x = 0.001, y = 0", "x = 0.1, y = -0.1".into(), &["line 20", "0.05 m along y", "half a cell"]),
+        (LAYER, "x = 0.001, y = 0", "x = 0.1, y = -0.1".into(), &["line 19", "0.05 m along y", "half a cell"]),
         (COLUMN, "[0, -200]", "[-200]".into(), &["line 16", "traction_pa has 1 numbers"]),
         (COLUMN, "axis = \"y\"", "axis = \"z\"".into(), &["line 16", "axis z"]),
         (COLUMN, "end = \"hi\" }", "end = \"hi\", on = { y_m = [0, 0.5] } }".into(), &["press", "free side"]),
@@ -213,7 +215,7 @@ fn loads_that_say_too_little_or_too_much_are_named_with_their_line() {
             LAYER,
             "[[supports]]",
             loads("absorbing = { axis = \"y\", end = \"hi\", rise_s = 1 }"),
-            &["line 20", "without incoming_m_s"],
+            &["line 19", "without incoming_m_s"],
         ),
     ];
     for (text, from, to, parts) in cases {
