@@ -84,8 +84,7 @@ impl<'a> Runs<'a> {
 mod tests {
     use super::*;
     use crate::parameter::Parameters;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
+    use crate::record::fixture::{changed, record};
     use crate::scheme::RemedyName;
 
     fn cook() -> &'static Case {
@@ -95,10 +94,9 @@ mod tests {
     fn run(level: &str, remedy: RemedyName, set: &[&str]) -> Record {
         let mut run = record(level, Vec::new());
         run.scheme = Scheme::flip(run.basis(), remedy);
-        run.set = set.iter().map(|s| (*s).to_owned()).collect();
+        run.set = changed(set);
         run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
-        let (value, unit) = (Some(0.01), "-".to_owned());
-        run.metrics.insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
+        run.measure(&[("fem_edge_mean_error", 0.01)]);
         run
     }
 
