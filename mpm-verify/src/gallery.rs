@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 pub struct Picture {
     /// File below the report's folder.
     pub file: String,
-    /// Caption.
     pub caption: String,
 }
 
@@ -34,7 +33,7 @@ impl Picture {
 }
 
 /// The folder of a run.
-pub type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
+pub(crate) type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
 
 /// The runs of a case, and the place for its pictures.
 pub struct Gallery<'a> {
@@ -78,7 +77,6 @@ impl<'a> Gallery<'a> {
     }
 
     /// Where a file of the case's folder goes.
-    #[must_use]
     pub fn place(&self, file: &str) -> PathBuf {
         self.out.join(self.case).join(file)
     }

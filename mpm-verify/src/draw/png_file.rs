@@ -12,7 +12,7 @@ type Pixel = [u8; 3];
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
+pub(crate) fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
     let size = image.dimensions();
     let write = |bytes: &mut Vec<u8>| match with_palette(image) {
         Some((palette, indices)) => {

@@ -16,7 +16,7 @@ mod fate;
 mod faults;
 #[cfg(test)]
 mod fixture;
-pub mod history;
+mod history;
 pub mod junit;
 pub mod keep;
 mod map;

@@ -38,8 +38,7 @@ pub struct Saving {
 
 impl Saving {
     /// The default interval, resuming from an existing checkpoint.
-    #[must_use]
-    pub fn resuming() -> Self {
+    pub(crate) fn resuming() -> Self {
         Self { every: Duration::from_secs(EVERY_S), resume: true }
     }
 }
@@ -249,8 +248,7 @@ impl Keeper {
     }
 
     /// Whether it is time for the next checkpoint.
-    #[must_use]
-    pub fn due(&self) -> bool {
+    pub(crate) fn due(&self) -> bool {
         self.last.elapsed() >= self.every
     }
 

@@ -26,7 +26,7 @@ const BLOCK: usize = 1 << 20;
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
+pub(crate) fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
     let document = grid(columns).map_err(|e| Error::file(path, e))?;
     write_whole(path, &document)
 }
@@ -35,7 +35,7 @@ pub fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
 ///
 /// # Errors
 /// The file can't be written.
-pub fn write_pvd(path: &Path, members: &[(f64, String)]) -> Result<(), Error> {
+pub(crate) fn write_pvd(path: &Path, members: &[(f64, String)]) -> Result<(), Error> {
     write_whole(path, collection(members).as_bytes())
 }
 
