@@ -82,10 +82,7 @@ impl<'a> Gallery<'a> {
     }
 
     /// Writes every point of every curve: chart, quantity, series, abscissa, ordinate.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn write_curves(&self, file: &str, charts: &[Chart]) -> Result<(), Error> {
+    pub(crate) fn write_curves(&self, file: &str, charts: &[Chart]) -> Result<(), Error> {
         let abscissa = charts.first().map_or("", |chart| &chart.x_label);
         let header = ["chart", "quantity", "series", abscissa, "value"].map(str::to_owned);
         let rows = charts.iter().flat_map(|chart| {

@@ -141,9 +141,6 @@ pub(crate) struct Driver<const D: usize, P: Problem<D>> {
 
 impl<const D: usize, P: Problem<D>> Driver<D, P> {
     /// A run at its start.
-    ///
-    /// # Errors
-    /// As [`Problem::begin`].
     pub(crate) fn new(problem: P) -> Result<Self, Error> {
         let seen = problem.unseen();
         let phase = Phase::new(problem.begin(&seen)?);

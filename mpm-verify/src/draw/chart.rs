@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
+pub(crate) enum Scale {
     Linear,
     /// Logarithmic, base ten.
     Log10,
@@ -16,7 +16,7 @@ pub enum Scale {
 
 /// Line of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dash {
+pub(crate) enum Dash {
     Solid,
     Dashed,
     Dotted,

@@ -160,15 +160,14 @@ fn ratio(prices: &Prices) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::fixture::record;
+    use crate::record::fixture;
 
     /// Cook's membrane, where standard MPM never comes near and the pressure takes F̄ more.
     fn cook() -> CaseStudy {
         let run = |remedy, level: &str, (h, pairs): (f64, u64), errors: [f64; 2]| {
-            let mut run = record(level, Vec::new());
-            run.scheme = Scheme::flip(BasisName::Gimp, remedy);
-            (run.discretisation.h, run.work.particle_node_pairs) = (h, pairs);
-            run.measure(&[("fem_edge_mean_error", errors[0]), ("mean_stress_rms_error", errors[1])]);
+            let errors = [("fem_edge_mean_error", errors[0]), ("mean_stress_rms_error", errors[1])];
+            let mut run = fixture::run(&[], (BasisName::Gimp, remedy), (level, h), &[], &errors);
+            run.work.particle_node_pairs = pairs;
             run
         };
         let runs = [

@@ -83,21 +83,15 @@ impl<'a> Runs<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Parameters;
-    use crate::record::fixture::{changed, record};
-    use crate::scheme::RemedyName;
+    use crate::record::fixture;
 
     fn cook() -> &'static Case {
         cases::find("cook").unwrap()
     }
 
     fn run(level: &str, remedy: RemedyName, set: &[&str]) -> Record {
-        let mut run = record(level, Vec::new());
-        run.scheme = Scheme::flip(run.basis(), remedy);
-        run.set = changed(set);
-        run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
-        run.measure(&[("fem_edge_mean_error", 0.01)]);
-        run
+        let error = [("fem_edge_mean_error", 0.01)];
+        fixture::run(&cook().parameters, (BasisName::Gimp, remedy), (level, 1.0), set, &error)
     }
 
     /// Two values at the finest level, three at the next, for one of two schemes.

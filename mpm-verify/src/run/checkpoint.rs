@@ -263,10 +263,7 @@ impl Keeper {
     }
 
     /// Ends: a run that has its record needs no checkpoint.
-    ///
-    /// # Errors
-    /// The file can't be removed.
-    pub fn end(self) -> Result<(), Error> {
+    pub(crate) fn end(self) -> Result<(), Error> {
         discard(&self.folder)
     }
 }

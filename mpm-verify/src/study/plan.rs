@@ -180,10 +180,7 @@ impl Plan {
     }
 
     /// Writes the plan into its folder.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), Error> {
         write_json(&folder.join(FILE), self)
     }
 
