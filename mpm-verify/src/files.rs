@@ -51,7 +51,7 @@ pub(crate) fn snapshot_file(folder: &Path, time: f64) -> PathBuf {
 ///
 /// # Errors
 /// It is missing, a link, no plain file (a pipe would be waited for), or larger.
-pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
+pub fn read(path: &Path, most: u64) -> Result<Vec<u8>, Error> {
     let about = fs::symlink_metadata(path).map_err(|e| Error::file(path, e))?;
     if about.is_symlink() {
         return Err(Error::file(path, "a link, which is not followed"));

@@ -99,7 +99,10 @@ impl Table {
     }
 
     /// Writes the table as CSV; every number reads back as it was.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), Error> {
+    ///
+    /// # Errors
+    /// The file can't be written.
+    pub fn write(&self, path: &Path) -> Result<(), Error> {
         write_csv(path, &self.header, self.lines())
     }
 

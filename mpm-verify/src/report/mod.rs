@@ -52,7 +52,7 @@ const SUMMARY: &str = "summary.json";
 pub enum Files {
     /// All.
     All,
-    /// Records, and tables that a picture or a golden shows: see [`slim`].
+    /// Records, and tables that a picture or a golden shows: see `run::slim`.
     Shown,
 }
 
