@@ -10,7 +10,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::fmt;
 
 /// Confidence of an uncertainty.
-pub const CONFIDENCE: f64 = 0.95;
+pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Factor of safety of the GCI for an order observed on three grids or more (Roache).
 const SAFETY: f64 = 1.25;
 /// Largest relative difference between the orders of two successive triplets of grids in the asymptotic
@@ -22,7 +22,6 @@ const MOST: f64 = 8.0;
 /// An order by least squares: the slope of ln |error| against ln h.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Order {
-    /// The order.
     pub order: f64,
     /// Half the width of its confidence interval (Student's t, 95 %).
     pub uncertainty: f64,
@@ -85,7 +84,7 @@ pub struct Richardson {
 ///
 /// # Errors
 /// Why nothing can be extrapolated: the values don't converge monotonically.
-pub fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
+pub(crate) fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
     let [(h3, f3), (h2, f2), (h1, f1)] = points;
     let (r32, r21) = (h3 / h2, h2 / h1);
     let (d32, d21) = (f3 - f2, f2 - f1);
@@ -119,7 +118,7 @@ pub fn richardson(points: [(f64, f64); 3]) -> Result<Richardson, String> {
 ///
 /// # Errors
 /// Why the asymptotic range can't be claimed.
-pub fn extrapolate(points: &[(f64, f64)]) -> Result<Richardson, String> {
+pub(crate) fn extrapolate(points: &[(f64, f64)]) -> Result<Richardson, String> {
     let [.., d, c, b, a] = *points else {
         return Err("fewer than four levels can't confirm each other".to_owned());
     };

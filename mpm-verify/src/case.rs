@@ -412,13 +412,11 @@ impl Case {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Family {
     /// The least tier that has them.
-    pub tier: Tier,
-    /// Levels.
-    pub levels: Vec<Level>,
-    /// Schemes.
-    pub schemes: Vec<Scheme>,
+    pub(crate) tier: Tier,
+    pub(crate) levels: Vec<Level>,
+    pub(crate) schemes: Vec<Scheme>,
     /// Parameters changed from the defaults, as `name=value`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
 }
 
 /// The plan of a case, in words.

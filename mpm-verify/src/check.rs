@@ -7,22 +7,20 @@ use serde::Serialize;
 /// A check of a case.
 #[derive(Serialize)]
 pub struct Check {
-    /// Name.
     pub name: &'static str,
-    /// Kind.
     pub kind: Kind,
     /// Its demand, the schemes it applies to, and the origin of the tolerance.
     pub statement: &'static str,
     /// Data by which it is decided, and the rule.
     #[serde(skip)]
-    pub on: On,
+    pub(crate) on: On,
 }
 
 type OfRun = Box<dyn Fn(&Record) -> Vec<Finding> + Send + Sync>;
 type OfStudy = Box<dyn Fn(&[Record]) -> Vec<Finding> + Send + Sync>;
 
 /// Data by which a check is decided, and the rule; without a statement of the rule nothing is found.
-pub enum On {
+pub(crate) enum On {
     /// One run that has come to its end.
     Run(OfRun),
     /// All runs of a case together.
@@ -58,7 +56,7 @@ impl Check {
 
 /// Finding of a check; the judge adds whose finding it is.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Finding {
+pub(crate) struct Finding {
     metric: String,
     value: Option<f64>,
     reference: Option<f64>,

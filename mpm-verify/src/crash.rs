@@ -9,7 +9,7 @@ use crate::files::fault::{Fault, Step, on_machine};
 use crate::files::{make_folder, read, read_versioned, write_whole};
 use crate::golden::Goldens;
 use crate::night::Night;
-use crate::record::Record;
+use crate::record::{Record, fixture};
 use crate::report::keep::keep;
 use crate::report::{Files, write_report};
 use crate::run::checkpoint::Saving;
@@ -25,20 +25,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Least number of steps of a run with an injected failure, as stated by the page.
-const LEAST: usize = 40;
-
 /// A run of a few rows.
 fn spec() -> (&'static Case, RunSpec) {
     let case = cases::find("cook").unwrap();
     let set = ["max_periods=0.01", "rest_window=0.005", "load_ramp=0.005"];
-    let spec = RunSpec {
-        scheme: Scheme::flip(BasisName::Gimp, RemedyName::FbarTotal),
-        level: case.levels[0],
-        set: set.map(str::to_owned).into(),
-        perturbed: false,
-    };
-    (case, spec)
+    (case, fixture::spec(Scheme::flip(BasisName::Gimp, RemedyName::FbarTotal), case.levels[0], &set))
 }
 
 fn saving() -> Saving {
@@ -91,26 +82,6 @@ fn require_same(a: &Path, b: &Path, about: &str) {
     assert!(different.is_empty(), "{about}: {different:?}");
 }
 
-/// A run that is killed, or whose disk is full, at any step resumes bit for bit.
-#[test]
-fn a_run_survives_a_failure_at_every_step() {
-    let straight = tempfile::tempdir().unwrap();
-    let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, || make(straight.path()));
-    made.unwrap();
-    assert!(log.len() >= LEAST, "{} steps", log.len());
-    for fault in [Fault::Kill, Fault::Full] {
-        for at in 0..log.len() {
-            let folder = tempfile::tempdir().unwrap();
-            let (failed, steps) = on_machine(folder.path(), fault, at, || make(folder.path()));
-            let adds = |(step, _): &(Step, PathBuf)| matches!(step, Step::Create | Step::Write);
-            let fails = fault == Fault::Kill || log[at..].iter().any(adds);
-            assert_eq!(failed.is_err(), fails, "{fault:?} at {at}: {steps:?}");
-            make(folder.path()).unwrap();
-            require_same(folder.path(), straight.path(), &format!("{fault:?} at {at}"));
-        }
-    }
-}
-
 /// Checks that every file is on the disk before it gets its name: written, synced, renamed, and then the folder synced.
 /// Returns the number of files that got their names.
 fn require_safe_names(log: &[(Step, PathBuf)]) -> usize {
@@ -128,13 +99,6 @@ fn require_safe_names(log: &[(Step, PathBuf)]) -> usize {
         assert_eq!(log[k + 1], (Step::SyncFolder, path.clone()));
     }
     renamed
-}
-
-#[test]
-fn a_file_is_safe_before_it_has_its_name() {
-    let folder = tempfile::tempdir().unwrap();
-    let (_, log) = on_machine(folder.path(), Fault::Kill, usize::MAX, || make(folder.path()));
-    assert!(require_safe_names(&log) > 3);
 }
 
 /// Whatever is written whole is old or new: records, pages, goldens, rows of nights.
@@ -220,7 +184,6 @@ fn report(root: &Path, from: &[&str], out: &str, night: Option<&Night>) -> Resul
 
 /// A command that changes files below a folder.
 struct Deed {
-    name: &'static str,
     /// Its steps, at least: the page says so.
     least: usize,
     /// Stride between the steps with an injected failure: no divisor of those of a file, so that steps of all kinds
@@ -237,51 +200,11 @@ fn one_run(root: &Path) -> Result<(), Error> {
     make_runs(&plan(1, 1), &root.join("runs"), saving(), 1, &Deaf).map(drop)
 }
 
-fn night() -> Night {
-    Night::new("2026-01-02", "abc").unwrap()
+/// Reports one run of the night of a day in January.
+fn report_night(root: &Path, day: &str) -> Result<(), Error> {
+    let night = Night::new(&format!("2026-01-{day}"), day)?;
+    report(root, &["runs"], "runs", Some(&night))
 }
-
-fn next_night() -> Night {
-    Night::new("2026-01-03", "def").unwrap()
-}
-
-const DEEDS: [Deed; 3] = [
-    Deed {
-        name: "merge",
-        least: 50,
-        of: 1,
-        prepare: |root| {
-            make_folder(&root.join("golden"))?;
-            ["a", "b"]
-                .into_iter()
-                .zip(1..)
-                .try_for_each(|(name, k)| make_runs(&plan(k, 2), &root.join(name), saving(), 1, &Deaf).map(drop))
-        },
-        work: |root| report(root, &["a", "b"], "all", None),
-    },
-    Deed {
-        name: "keep",
-        least: 10,
-        of: 1,
-        prepare: |root| {
-            one_run(root)?;
-            report(root, &["runs"], "runs", Some(&night()))?;
-            keep(&root.join("runs"), &root.join("kept")).map(drop)?;
-            report(root, &["runs"], "runs", Some(&next_night()))
-        },
-        work: |root| keep(&root.join("runs"), &root.join("kept")).map(drop),
-    },
-    Deed {
-        name: "report",
-        least: 80,
-        of: 9,
-        prepare: |root| {
-            one_run(root)?;
-            report(root, &["runs"], "runs", Some(&night()))
-        },
-        work: |root| report(root, &["runs"], "runs", Some(&next_night())),
-    },
-];
 
 fn copy(from: &Path) -> tempfile::TempDir {
     let to = tempfile::tempdir().unwrap();
@@ -295,15 +218,15 @@ fn copy(from: &Path) -> tempfile::TempDir {
 }
 
 /// A command that fails at any of its steps ends, when it is given again, with the files of one that has not failed.
-fn survives(deed: &Deed) {
+/// Returns the number of files that got their names.
+fn survives(deed: &Deed) -> usize {
     let before = tempfile::tempdir().unwrap();
     (deed.prepare)(before.path()).unwrap();
     let straight = copy(before.path());
     let work = || (deed.work)(straight.path());
     let (made, log) = on_machine(straight.path(), Fault::Kill, usize::MAX, work);
     made.unwrap();
-    assert!(log.len() >= deed.least, "{}: {}", deed.name, log.len());
-    require_safe_names(&log);
+    assert!(log.len() >= deed.least, "{} steps", log.len());
     for fault in [Fault::Kill, Fault::Full] {
         for at in (0..log.len()).step_by(deed.of) {
             let folder = copy(before.path());
@@ -311,27 +234,52 @@ fn survives(deed: &Deed) {
             let (failed, steps) = on_machine(folder.path(), fault, at, work);
             let adds = |(step, _): &(Step, PathBuf)| matches!(step, Step::Create | Step::Write);
             let fails = fault == Fault::Kill || log[at..].iter().any(adds);
-            assert_eq!(failed.is_err(), fails, "{} {fault:?} at {at}", deed.name);
+            assert_eq!(failed.is_err(), fails, "{fault:?} at {at}: {steps:?}");
             require_whole_report(&folder.path().join("runs"));
             require_whole_report(&folder.path().join("all"));
             (deed.work)(folder.path()).unwrap();
-            let about = format!("{} {fault:?} at {at}: {:?}", deed.name, steps.last());
+            let about = format!("{fault:?} at {at}: {:?}", steps.last());
             require_same(folder.path(), straight.path(), &about);
         }
     }
+    require_safe_names(&log)
+}
+
+/// A run that is killed, or whose disk is full, at any step resumes bit for bit.
+#[test]
+fn a_run_survives_a_failure_at_every_step() {
+    let work = |root: &Path| make(root).map(drop);
+    let named = survives(&Deed { least: 40, of: 1, prepare: |_| Ok(()), work });
+    assert!(named > 3);
 }
 
 #[test]
 fn a_merge_survives_failures_at_every_step() {
-    survives(&DEEDS[0]);
+    let prepare = |root: &Path| {
+        make_folder(&root.join("golden"))?;
+        let shards = [("a", plan(1, 2)), ("b", plan(2, 2))];
+        shards.iter().try_for_each(|(to, plan)| make_runs(plan, &root.join(to), saving(), 1, &Deaf).map(drop))
+    };
+    survives(&Deed { least: 50, of: 1, prepare, work: |root| report(root, &["a", "b"], "all", None) });
 }
 
 #[test]
 fn a_report_over_an_earlier_one_survives_failures() {
-    survives(&DEEDS[2]);
+    let prepare = |root: &Path| {
+        one_run(root)?;
+        report_night(root, "02")
+    };
+    survives(&Deed { least: 80, of: 9, prepare, work: |root| report_night(root, "03") });
 }
 
 #[test]
 fn keeping_survives_failures_at_every_step() {
-    survives(&DEEDS[1]);
+    let work = |root: &Path| keep(&root.join("runs"), &root.join("kept")).map(drop);
+    let prepare = |root: &Path| {
+        one_run(root)?;
+        report_night(root, "02")?;
+        keep(&root.join("runs"), &root.join("kept"))?;
+        report_night(root, "03")
+    };
+    survives(&Deed { least: 10, of: 1, prepare, work });
 }

@@ -2,7 +2,7 @@
 //!
 //! Ground that has failed slumps to another equilibrium: its displacement over the factor has a kink. docs/how-to/factor.md
 
-use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series};
+use crate::draw::{Chart, Dash, Marker, ReferenceLine, Series, draw_charts};
 use crate::error::Error;
 use crate::files::write_csv;
 use crate::record::{Failure, LIMIT_LOAD, Record, Status};
@@ -100,18 +100,19 @@ impl Search {
         }
     }
 
-    /// Writes the trials as a table.
+    /// Writes the trials as a picture and a table into a folder.
     ///
     /// # Errors
-    /// The file can't be written.
-    pub fn write(&self, path: &Path) -> Result<(), Error> {
+    /// A file can't be written.
+    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+        draw_charts(&folder.join("factor.png"), &[self.chart()], 1)?;
         let header = ["factor", "displacement_max_m", "stands"].map(str::to_owned);
         let row = |t: &Trial| vec![t.factor.to_string(), t.moved.to_string(), t.stands.to_string()];
-        write_csv(path, &header, self.trials.iter().map(row))
+        write_csv(&folder.join("factor.csv"), &header, self.trials.iter().map(row))
     }
 
     /// Displacement over the factor.
-    pub fn chart(&self) -> Chart {
+    fn chart(&self) -> Chart {
         let series =
             [("stands", true, Marker::Circle), ("fails", false, Marker::Square)].map(|(name, stands, marker)| {
                 let own = self.trials.iter().filter(|t| t.stands == stands);
@@ -129,7 +130,6 @@ impl Search {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Measured;
     use crate::record::fixture::record;
 
     /// The search of a body 10 m high that fails at `limit` and finds equilibrium up to `lost`.
@@ -138,7 +138,7 @@ mod tests {
         while let Some(factor) = search.next() {
             let mut run = record("h1", Vec::new());
             let moved = 0.002 * factor + 5.0 * (factor / limit).ln().max(0.0);
-            run.metrics.insert("displacement_max".to_owned(), Measured { value: Some(moved), unit: "m".to_owned() });
+            run.measure(&[("displacement_max", moved)]);
             if factor > lost {
                 run.status = Status::Failed;
             }
@@ -166,11 +166,9 @@ mod tests {
             let mut search = Search::new([1.0, 3.0], 10.0, 3).unwrap();
             while let Some(factor) = search.next() {
                 let mut run = record("h1", Vec::new());
-                run.metrics.insert("displacement_max".to_owned(), Measured { value: Some(0.01), unit: "m".to_owned() });
+                run.measure(&[("displacement_max", 0.01)]);
                 if factor > 1.0 {
-                    run.status = Status::Failed;
-                    let (kind, message) = (kind.to_owned(), "take shorter steps".to_owned());
-                    run.error = Some(Failure { kind, message, time: 0.5, step: 1, particle: 0, value: None });
+                    run.break_down(kind, 0.5, "take shorter steps");
                 }
                 search.add(factor, &run);
             }

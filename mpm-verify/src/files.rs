@@ -85,7 +85,7 @@ pub fn read_picture(path: &Path) -> Result<image::RgbImage, Error> {
 ///
 /// # Errors
 /// A part of it is `..` or leads elsewhere by a link.
-pub fn require_inside(root: &Path, place: &Path) -> Result<(), Error> {
+pub(crate) fn require_inside(root: &Path, place: &Path) -> Result<(), Error> {
     let mut path = root.to_path_buf();
     for part in place.components() {
         let Component::Normal(name) = part else {
@@ -100,10 +100,7 @@ pub fn require_inside(root: &Path, place: &Path) -> Result<(), Error> {
 }
 
 /// Makes a folder and its parents.
-///
-/// # Errors
-/// The folder can't be made.
-pub fn make_folder(path: &Path) -> Result<(), Error> {
+pub(crate) fn make_folder(path: &Path) -> Result<(), Error> {
     fs::create_dir_all(path).map_err(|e| Error::file(path, e))
 }
 
@@ -111,7 +108,7 @@ pub fn make_folder(path: &Path) -> Result<(), Error> {
 ///
 /// # Errors
 /// One is there and can't be removed.
-pub fn discard(path: &Path) -> Result<(), Error> {
+pub(crate) fn discard(path: &Path) -> Result<(), Error> {
     for path in [path, &layer::draft(path)] {
         match layer::remove(path) {
             Err(e) if e.kind() != std::io::ErrorKind::NotFound => return Err(Error::file(path, e)),
@@ -122,10 +119,7 @@ pub fn discard(path: &Path) -> Result<(), Error> {
 }
 
 /// The files with one of some extensions that lie in a folder, if it is there, by name.
-///
-/// # Errors
-/// The folder can't be read.
-pub fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Error> {
     let mut entries = entries(folder)?;
     entries.retain(|path| {
         let extension = path.extension().and_then(|e| e.to_str());
@@ -135,10 +129,7 @@ pub fn files_in(folder: &Path, extensions: &[&str]) -> Result<Vec<PathBuf>, Erro
 }
 
 /// The folders in a folder, if it is there, by name; links are none.
-///
-/// # Errors
-/// The folder can't be read.
-pub fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+pub(crate) fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     let mut entries = entries(folder)?;
     entries.retain(|path| path.is_dir() && !path.is_symlink());
     Ok(entries)
@@ -165,10 +156,7 @@ pub fn write_whole(path: &Path, content: &[u8]) -> Result<(), Error> {
 }
 
 /// [`write_whole`] of several parts.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_parts(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
+pub(crate) fn write_parts(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
     make_folder(path.parent().unwrap_or(Path::new(".")))?;
     let write = || {
         let mut draft = Output::create(&layer::draft(path))?;
@@ -179,18 +167,12 @@ pub fn write_parts(path: &Path, parts: &[&[u8]]) -> Result<(), Error> {
 }
 
 /// Writes JSON, indented, with a final newline.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
+pub(crate) fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
     write_text(path, serde_json::to_string_pretty(value))
 }
 
 /// Writes JSON without indentation, for documents of many megabytes.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_dense_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
+pub(crate) fn write_dense_json(path: &Path, value: &impl serde::Serialize) -> Result<(), Error> {
     write_text(path, serde_json::to_string(value))
 }
 
@@ -238,7 +220,7 @@ fn unfit(value: &Value) -> Option<&str> {
 ///
 /// # Errors
 /// Those of [`read`], or a row is not of that type.
-pub fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
+pub(crate) fn read_rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
     let bytes = read(path, DOCUMENT)?;
     let rows = csv::Reader::from_reader(&bytes[..]).into_deserialize();
     let rows: csv::Result<Vec<T>> = rows.collect();
@@ -263,9 +245,10 @@ pub(crate) fn csv_text(header: &[String], rows: impl IntoIterator<Item = Vec<Str
 }
 
 /// Writes a table as CSV.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_csv(path: &Path, header: &[String], rows: impl IntoIterator<Item = Vec<String>>) -> Result<(), Error> {
+pub(crate) fn write_csv(
+    path: &Path,
+    header: &[String],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> Result<(), Error> {
     write_whole(path, &csv_text(header, rows).map_err(|e| Error::file(path, e))?)
 }

@@ -27,7 +27,6 @@ pub enum Part {
 
 impl Part {
     /// Its key in a manifest.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Particles => "particles",
@@ -39,11 +38,9 @@ impl Part {
 /// A column that a code may give.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Asked {
-    /// Where it stands.
     pub part: Part,
     /// Name, as our runs have it.
     pub name: &'static str,
-    /// Unit.
     pub unit: &'static str,
     /// Meaning, for the form to fill in.
     pub meaning: &'static str,
@@ -61,7 +58,6 @@ impl Asked {
     }
 
     /// As it stands at the head of a table.
-    #[must_use]
     pub fn header(&self) -> String {
         format!("{} ({})", self.name, self.unit)
     }
@@ -95,7 +91,7 @@ fn letters(head: &str) -> String {
 }
 
 /// Metrics of a result.
-pub type Measured = Result<Vec<(Metric, f64)>, Error>;
+pub(crate) type Measured = Result<Vec<(Metric, f64)>, Error>;
 
 /// A value between rows.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -119,7 +115,6 @@ pub enum Gap {
 
 impl Gap {
     /// The value of a metric that was measured from the rows alone as `own`.
-    #[must_use]
     pub fn value(&self, own: Option<f64>) -> Option<f64> {
         match self {
             Self::Unknown(_) => None,
@@ -129,7 +124,6 @@ impl Gap {
     }
 
     /// Why a verdict can't be given, if it can't.
-    #[must_use]
     pub fn refusal(&self, tolerance: Option<f64>) -> Option<String> {
         match (self, tolerance) {
             (Self::Unknown(why), _) => Some(why.clone()),
@@ -146,15 +140,12 @@ impl Gap {
 }
 
 /// Metrics that the rows of a series leave open.
-pub type Gaps = Result<Vec<(Metric, Gap)>, Error>;
+pub(crate) type Gaps = Result<Vec<(Metric, Gap)>, Error>;
 
 /// Metrics, and the columns that all of them are measured from.
 pub struct Group {
-    /// The columns.
     pub columns: &'static [Asked],
-    /// The metrics.
     pub metrics: Vec<Metric>,
-    /// Measures them.
     pub measure: fn(&Given) -> Measured,
 }
 
@@ -170,7 +161,7 @@ impl Group {
 }
 
 /// A curve of a reference, to be compared with: the name of its file, and its columns with their units.
-pub type Curve = (&'static str, Vec<(String, Vec<f64>)>);
+pub(crate) type Curve = (&'static str, Vec<(String, Vec<f64>)>);
 
 /// How another code is scored by a case.
 pub struct Foreign {
@@ -215,7 +206,6 @@ impl Foreign {
     }
 
     /// The columns, each once.
-    #[must_use]
     pub fn columns(&self) -> Vec<Asked> {
         crate::distinct(self.groups.iter().flat_map(|g| g.columns).copied())
     }
@@ -226,7 +216,6 @@ impl Foreign {
     }
 
     /// Its tables.
-    #[must_use]
     pub fn parts(&self) -> Vec<Part> {
         crate::distinct(self.columns().iter().map(|c| c.part))
     }
@@ -258,11 +247,9 @@ pub struct Given {
     pub spec: RunSpec,
     /// All parameters.
     pub parameters: Parameters,
-    /// The discretisation.
     pub discretisation: Discretisation,
     /// Steps, if they are known.
     pub steps: Option<u64>,
-    /// The tables.
     pub tables: Vec<(Part, PathBuf, Table)>,
 }
 
@@ -284,13 +271,11 @@ impl Given {
     }
 
     /// Whether a column is there.
-    #[must_use]
     pub fn has(&self, asked: &Asked) -> bool {
         !self.column(asked).is_empty()
     }
 
     /// Rows of a table.
-    #[must_use]
     pub fn rows(&self, part: Part) -> usize {
         let table = self.tables.iter().find(|(of, ..)| *of == part);
         table.map_or(0, |(.., table)| table.rows())

@@ -15,7 +15,6 @@ use std::path::{Path, PathBuf};
 pub struct Picture {
     /// File below the report's folder.
     pub file: String,
-    /// Caption.
     pub caption: String,
 }
 
@@ -34,7 +33,7 @@ impl Picture {
 }
 
 /// The folder of a run.
-pub type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
+pub(crate) type FolderOf<'a> = &'a dyn Fn(&Record) -> Result<PathBuf, Error>;
 
 /// The runs of a case, and the place for its pictures.
 pub struct Gallery<'a> {
@@ -78,16 +77,12 @@ impl<'a> Gallery<'a> {
     }
 
     /// Where a file of the case's folder goes.
-    #[must_use]
     pub fn place(&self, file: &str) -> PathBuf {
         self.out.join(self.case).join(file)
     }
 
     /// Writes every point of every curve: chart, quantity, series, abscissa, ordinate.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn write_curves(&self, file: &str, charts: &[Chart]) -> Result<(), Error> {
+    pub(crate) fn write_curves(&self, file: &str, charts: &[Chart]) -> Result<(), Error> {
         let abscissa = charts.first().map_or("", |chart| &chart.x_label);
         let header = ["chart", "quantity", "series", abscissa, "value"].map(str::to_owned);
         let rows = charts.iter().flat_map(|chart| {

@@ -9,12 +9,10 @@ use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 /// A named particle column with its unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Name.
-    pub name: &'static str,
-    /// Unit.
-    pub unit: &'static str,
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
     /// Values in seeding order.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 /// A row of the time series: name with unit, and value, of each column.

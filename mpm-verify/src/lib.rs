@@ -5,44 +5,44 @@
 //! runs many side by side; the report draws. Every hand-off is a plain file, so each later stage runs
 //! again without simulating.
 
-pub mod accuracy;
+pub(crate) mod accuracy;
 pub mod bench;
 pub mod bless;
 pub mod case;
 pub mod cases;
-pub mod check;
+pub(crate) mod check;
 #[cfg(test)]
 mod crash;
-pub mod demand;
-pub mod draw;
+pub(crate) mod demand;
+pub(crate) mod draw;
 pub mod error;
 pub mod factor;
 pub(crate) mod figure;
 pub mod files;
-pub mod foreign;
-pub mod gallery;
+pub(crate) mod foreign;
+pub(crate) mod gallery;
 pub mod golden;
 pub mod job;
-pub mod metric;
+pub(crate) mod metric;
 pub mod night;
 pub(crate) mod prelude;
-pub mod probe;
-pub mod problem;
+pub(crate) mod probe;
+pub(crate) mod problem;
 pub mod record;
 pub mod report;
-pub mod results;
+pub(crate) mod results;
 pub mod run;
-pub mod sampled;
+pub(crate) mod sampled;
 pub mod score;
-pub mod setup;
+pub(crate) mod setup;
 pub mod size;
-pub mod sketch;
+pub(crate) mod sketch;
 pub mod spec;
-pub mod statistics;
+pub(crate) mod statistics;
 pub mod study;
 pub mod table;
 pub mod verdict;
-pub mod wanted;
+pub(crate) mod wanted;
 
 pub use mpm_exact::{self as exact, parameter};
 pub use mpm_solvers::scheme;

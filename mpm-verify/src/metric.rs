@@ -7,11 +7,8 @@ use std::ops::RangeInclusive;
 /// A metric: what a run measures, by name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Metric {
-    /// Name.
     pub name: &'static str,
-    /// Unit.
     pub unit: &'static str,
-    /// Meaning.
     pub meaning: &'static str,
 }
 
@@ -71,7 +68,6 @@ impl From<Metric> for String {
 /// A quantity whose convergence over the levels is studied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quantity {
-    /// The metric.
     pub metric: Metric,
     /// Label of the axis.
     pub label: &'static str,

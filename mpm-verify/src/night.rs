@@ -7,10 +7,8 @@ use serde::{Deserialize, Serialize};
 /// A night and the commit that ran.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Night {
-    /// Date.
-    pub date: Date,
-    /// Commit.
-    pub commit: String,
+    pub(crate) date: Date,
+    pub(crate) commit: String,
 }
 
 /// Whether a text can name a commit: it is shown in pages and stands in cells of tables.

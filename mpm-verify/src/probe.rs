@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 /// The value at a point of the plane as a fixed linear combination of particle values: the linear
 /// least-squares fit over the particles within a radius, in the reference configuration.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PointProbe {
+pub(crate) struct PointProbe {
     terms: Vec<(usize, f64)>,
 }
 
@@ -26,8 +26,7 @@ impl PointProbe {
     }
 
     /// The value of a field given in seeding order.
-    #[must_use]
-    pub fn value(&self, field: &[f64]) -> f64 {
+    pub(crate) fn value(&self, field: &[f64]) -> f64 {
         self.terms.iter().map(|(id, c)| c * field[*id]).sum()
     }
 }

@@ -16,7 +16,7 @@ use std::sync::Arc;
 pub(crate) type Begun<const D: usize> = Result<Box<dyn Simulation<D>>, mpm_core::Error>;
 
 /// The current simulation of a run, which may consist of several in sequence: a gravity phase, then the flow.
-pub struct Phase<const D: usize> {
+pub(crate) struct Phase<const D: usize> {
     /// The simulation.
     pub run: Box<dyn Simulation<D>>,
     /// Work of those before it.
@@ -33,7 +33,7 @@ impl<const D: usize> Phase<D> {
     ///
     /// # Errors
     /// The computation broke down.
-    pub fn steps(&mut self, count: u64) -> Result<(), mpm_core::Error> {
+    pub(crate) fn steps(&mut self, count: u64) -> Result<(), mpm_core::Error> {
         (0..count).try_for_each(|_| {
             self.run.step()?;
             self.pulse.beat(self.run.time());
@@ -45,7 +45,7 @@ impl<const D: usize> Phase<D> {
     ///
     /// # Errors
     /// The computation broke down.
-    pub fn iterate(&mut self, count: u64) -> Result<u64, mpm_core::Error> {
+    pub(crate) fn iterate(&mut self, count: u64) -> Result<u64, mpm_core::Error> {
         let before = self.run.work().newton_iterations;
         self.steps(count)?;
         Ok(self.run.work().newton_iterations - before)
@@ -55,7 +55,11 @@ impl<const D: usize> Phase<D> {
     ///
     /// # Errors
     /// The body is not one of the same particles, basis, remedy, transfer and kind of law.
-    pub fn enter(&mut self, mut next: Box<dyn Simulation<D>>, body: Option<&Saved>) -> Result<(), mpm_core::Error> {
+    pub(crate) fn enter(
+        &mut self,
+        mut next: Box<dyn Simulation<D>>,
+        body: Option<&Saved>,
+    ) -> Result<(), mpm_core::Error> {
         if let Some(body) = body {
             next.take_over(body)?;
         }
@@ -76,8 +80,7 @@ impl<const D: usize> Phase<D> {
 }
 
 /// Problem of a case: simulation, observation, metrics. All that changes from row to row is in [`Problem::Seen`].
-pub trait Problem<const D: usize>: Sized + Send {
-    /// Its parameters.
+pub(crate) trait Problem<const D: usize>: Sized + Send {
     type Parameters;
     /// Observations of the rows so far. They go into checkpoints.
     type Seen: Default + Serialize + DeserializeOwned + Send;
@@ -88,7 +91,6 @@ pub trait Problem<const D: usize>: Sized + Send {
     fn unseen(&self) -> Self::Seen {
         Self::Seen::default()
     }
-    /// The discretisation.
     fn discretisation(&self) -> Discretisation;
     /// Initial simulation of the phase that `seen` records.
     fn begin(&self, seen: &Self::Seen) -> Begun<D>;
@@ -120,7 +122,7 @@ pub trait Problem<const D: usize>: Sized + Send {
 ///
 /// # Errors
 /// Parameters that make no scene.
-pub fn begin<const D: usize, P: Problem<D> + 'static>(
+pub(crate) fn begin<const D: usize, P: Problem<D> + 'static>(
     spec: &RunSpec,
     parameters: &Parameters,
 ) -> Result<Box<dyn Job>, Error>
@@ -131,7 +133,7 @@ where
 }
 
 /// A run of a [`Problem`].
-pub struct Driver<const D: usize, P: Problem<D>> {
+pub(crate) struct Driver<const D: usize, P: Problem<D>> {
     problem: P,
     seen: P::Seen,
     phase: Phase<D>,
@@ -139,10 +141,7 @@ pub struct Driver<const D: usize, P: Problem<D>> {
 
 impl<const D: usize, P: Problem<D>> Driver<D, P> {
     /// A run at its start.
-    ///
-    /// # Errors
-    /// As [`Problem::begin`].
-    pub fn new(problem: P) -> Result<Self, Error> {
+    pub(crate) fn new(problem: P) -> Result<Self, Error> {
         let seen = problem.unseen();
         let phase = Phase::new(problem.begin(&seen)?);
         Ok(Self { problem, seen, phase })
@@ -223,7 +222,7 @@ impl<const D: usize, P: Problem<D>> Job for Driver<D, P> {
 
 /// A metric as a record has it: a value that is not finite is missing.
 pub(crate) fn measured((metric, value): (Metric, f64)) -> (String, Measured) {
-    (metric.name.to_owned(), Measured { value: value.is_finite().then_some(value), unit: metric.unit.to_owned() })
+    (metric.name.to_owned(), Measured::of(value, metric.unit))
 }
 
 /// All rows of a run so far, that of the start first: the observations of a problem that is sampled at equal intervals.
@@ -267,7 +266,7 @@ impl Rows {
 }
 
 /// The particles of a run as columns in seeding order.
-pub struct Columns<'a, const D: usize> {
+pub(crate) struct Columns<'a, const D: usize> {
     run: &'a mut dyn Simulation<D>,
     columns: Vec<Column>,
 }

@@ -34,32 +34,32 @@ pub(crate) const LIMIT_LOAD: &str = "limit-load";
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
     /// Kind of fault, such as `limit-load`.
-    pub kind: String,
+    pub(crate) kind: String,
     /// Time (s).
-    pub time: f64,
+    pub(crate) time: f64,
     /// Completed steps.
-    pub step: u64,
+    pub(crate) step: u64,
     /// Particle, in seeding order.
-    pub particle: u32,
+    pub(crate) particle: u32,
     /// The offending value (null where it is not finite).
-    pub value: Option<f64>,
+    pub(crate) value: Option<f64>,
     /// In words.
-    pub message: String,
+    pub(crate) message: String,
 }
 
 /// The discretisation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Discretisation {
     /// Dimension.
-    pub dim: usize,
+    pub(crate) dim: usize,
     /// Cell size (m).
-    pub h: f64,
+    pub(crate) h: f64,
     /// Particles per cell.
-    pub ppc: u32,
+    pub(crate) ppc: u32,
     /// Time step (s).
-    pub dt: f64,
+    pub(crate) dt: f64,
     /// How B-splines meet walls.
-    pub wall: String,
+    pub(crate) wall: String,
 }
 
 /// A measured quantity; null where it could not be measured.
@@ -67,8 +67,14 @@ pub struct Discretisation {
 pub struct Measured {
     /// Value.
     pub value: Option<f64>,
-    /// Unit.
-    pub unit: String,
+    pub(crate) unit: String,
+}
+
+impl Measured {
+    /// A value with its unit; one that is not finite is missing.
+    pub(crate) fn of(value: f64, unit: &str) -> Self {
+        Self { value: Some(value).filter(|v| v.is_finite()), unit: unit.to_owned() }
+    }
 }
 
 /// Exact counts by the names of those of `mpm_core::Work`: what a body has now, what adds up, and what adds up of Newton's
@@ -95,8 +101,7 @@ macro_rules! counts {
             }
 
             /// The counts by name; those of Newton's method where there are any.
-            #[must_use]
-            pub fn counts(&self) -> Vec<(&'static str, u64)> {
+            pub(crate) fn counts(&self) -> Vec<(&'static str, u64)> {
                 let of_all = [$((stringify!($own), self.$own),)* $((stringify!($sum), self.$sum),)*];
                 let of_newton = [$((stringify!($newton), self.$newton)),*];
                 of_all.into_iter().chain(of_newton.into_iter().filter(|_| self.newton_iterations > 0)).collect()
@@ -129,13 +134,12 @@ pub struct Timing {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
     /// Operating system.
-    pub os: String,
+    pub(crate) os: String,
     /// Architecture.
-    pub arch: String,
-    /// Cores.
-    pub cores: usize,
+    pub(crate) arch: String,
+    pub(crate) cores: usize,
     /// Threads of the run.
-    pub threads: usize,
+    pub(crate) threads: usize,
 }
 
 impl Machine {
@@ -171,25 +175,23 @@ impl Version {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Record {
     /// Version of this format.
-    pub schema: u32,
+    pub(crate) schema: u32,
     /// Case.
     pub case: String,
     /// Scheme.
     pub scheme: Scheme,
     /// Kind of solver.
     pub solver: String,
-    /// Level.
-    pub level: String,
+    pub(crate) level: String,
     /// Parameters changed from their defaults by the plan or the user, as `name=value`.
     pub set: Vec<String>,
     /// Whether it is the perturbed twin of a run.
-    pub perturbed: bool,
+    pub(crate) perturbed: bool,
     /// How it ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// Why it failed.
-    pub error: Option<Failure>,
-    /// Discretisation.
-    pub discretisation: Discretisation,
+    pub(crate) error: Option<Failure>,
+    pub(crate) discretisation: Discretisation,
     /// All parameters.
     pub parameters: Parameters,
     /// Metrics.
@@ -200,13 +202,11 @@ pub struct Record {
     pub work: WorkDone,
     /// Time taken.
     pub time: Timing,
-    /// Machine.
-    pub machine: Machine,
-    /// Version.
-    pub version: Version,
+    pub(crate) machine: Machine,
+    pub(crate) version: Version,
     /// The tables that the run has written, by their names below its folder; of earlier programs none.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub files: BTreeMap<String, Mark>,
+    pub(crate) files: BTreeMap<String, Mark>,
 }
 
 impl Record {

@@ -17,7 +17,7 @@ enum Notation {
 
 /// How a number is shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Format {
+pub(crate) struct Format {
     factor: f64,
     decimals: usize,
     signed: bool,
@@ -65,8 +65,7 @@ impl Format {
     }
 
     /// The number as shown; a dash for NaN.
-    #[must_use]
-    pub fn text(self, value: f64) -> String {
+    pub(crate) fn text(self, value: f64) -> String {
         let value = self.factor * value;
         if !value.is_finite() {
             return "–".to_owned();
@@ -209,7 +208,7 @@ impl Column {
 }
 
 /// Common property of the runs of a row: its title, and its value for a run.
-pub type Label = (&'static str, fn(&Record) -> String);
+pub(crate) type Label = (&'static str, fn(&Record) -> String);
 
 /// The scheme of a row.
 pub(crate) const SCHEME: Label = ("scheme", |r| r.scheme().title());
@@ -236,9 +235,7 @@ pub(crate) fn is_flip(r: &Record) -> bool {
     r.transfer() == TransferName::Flip
 }
 
-/// A table of results.
 pub struct ResultTable {
-    /// Name.
     pub name: String,
     shows: Of<bool>,
     labels: Vec<Label>,

@@ -11,8 +11,7 @@ use std::ops::Deref;
 
 /// The parameters `P` of a case, its scheme and its cells.
 #[derive(Debug, Clone)]
-pub struct Setup<P> {
-    /// Scheme.
+pub(crate) struct Setup<P> {
     pub scheme: Scheme,
     /// Cell size (m).
     pub h: f64,
@@ -40,7 +39,7 @@ impl<P: ParameterSet> Setup<P> {
     ///
     /// # Errors
     /// A parameter of another type.
-    pub fn of_spec(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
+    pub(crate) fn of_spec(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
         Ok(Self::new(spec, values, P::read(values)?))
     }
 
@@ -48,7 +47,7 @@ impl<P: ParameterSet> Setup<P> {
     ///
     /// # Errors
     /// A parameter of another type.
-    pub fn of_record(record: &Record) -> Result<Self, Error> {
+    pub(crate) fn of_record(record: &Record) -> Result<Self, Error> {
         Ok(Self {
             scheme: record.scheme(),
             h: record.discretisation.h,
@@ -86,27 +85,26 @@ impl<P> Setup<P> {
     }
 
     /// The basis functions.
-    pub fn basis(&self) -> BasisName {
+    pub(crate) fn basis(&self) -> BasisName {
         self.scheme.basis()
     }
 
     /// The locking remedy.
-    pub fn remedy(&self) -> RemedyName {
+    pub(crate) fn remedy(&self) -> RemedyName {
         self.scheme.remedy()
     }
 
-    /// The transfer.
-    pub fn transfer(&self) -> TransferName {
+    pub(crate) fn transfer(&self) -> TransferName {
         self.scheme.transfer()
     }
 
     /// The time rule of an implicit scheme.
-    pub fn rule(&self) -> Option<RuleName> {
+    pub(crate) fn rule(&self) -> Option<RuleName> {
         self.scheme.rule()
     }
 
     /// The pressure space of a scheme of solid and water.
-    pub fn space(&self) -> Option<SpaceName> {
+    pub(crate) fn space(&self) -> Option<SpaceName> {
         match self.scheme {
             Scheme::Poro(parts) => Some(parts.space),
             _ => None,
@@ -114,34 +112,33 @@ impl<P> Setup<P> {
     }
 
     /// Whether the scheme is explicit.
-    pub fn is_explicit(&self) -> bool {
+    pub(crate) fn is_explicit(&self) -> bool {
         matches!(self.scheme, Scheme::Explicit(_))
     }
 
     /// Whether the scheme is implicit, static or not.
-    pub fn is_implicit(&self) -> bool {
+    pub(crate) fn is_implicit(&self) -> bool {
         self.rule().is_some()
     }
 
     /// Whether steps are of equilibrium.
-    pub fn is_static(&self) -> bool {
+    pub(crate) fn is_static(&self) -> bool {
         self.rule() == Some(RuleName::QuasiStatic)
     }
 
     /// Whether the case's own parameters were changed in nothing.
-    pub fn is_default(&self) -> bool {
+    pub(crate) fn is_default(&self) -> bool {
         self.set.is_empty()
     }
 
     /// Initial positions (m) of particles seeded at `positions`: these, or, in a perturbed run, the next floating-point numbers.
-    pub fn start_at<const D: usize>(&self, positions: impl IntoIterator<Item = [f64; D]>) -> Vec<[f64; D]> {
+    pub(crate) fn start_at<const D: usize>(&self, positions: impl IntoIterator<Item = [f64; D]>) -> Vec<[f64; D]> {
         crate::spec::start_at(positions.into_iter().collect(), self.perturbed)
     }
 }
 
 /// A run that has come to its end: its [`Setup`], and its record.
 pub(crate) struct Run<'a, P> {
-    /// The record.
     pub(crate) record: &'a Record,
     setup: Setup<P>,
 }

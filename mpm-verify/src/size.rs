@@ -9,14 +9,12 @@ pub const GIBIBYTE: f64 = 1024.0 * MEBIBYTE;
 /// Size of a scene: exact, or extrapolated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// Particles.
-    pub particles: f64,
-    /// Nodes.
-    pub nodes: f64,
+    pub(crate) particles: f64,
+    pub(crate) nodes: f64,
     /// Bytes of memory at the start. Newton's method takes more: its matrices and their factors.
-    pub bytes: f64,
+    pub(crate) bytes: f64,
     /// Whether it is estimated: from a coarser scene, or from shapes and cells.
-    pub worked_out: bool,
+    pub(crate) worked_out: bool,
 }
 
 impl Size {

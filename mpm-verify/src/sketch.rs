@@ -3,53 +3,24 @@
 use std::f64::consts::{PI, TAU};
 
 /// A point (m).
-pub type Point = [f64; 2];
+pub(crate) type Point = [f64; 2];
 
 /// A shape of a sketch.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
-    /// The body.
     Body(Vec<Point>),
     /// A side that is held, hatched on its left, seen from the first point to the second.
     Held(Point, Point),
     /// A load, with the arrow's tip at the second point.
     Load(Point, Point),
-    /// A length, measured along a line beside the body.
-    Length {
-        /// One end.
-        from: Point,
-        /// The other.
-        to: Point,
-        /// Text beside the line.
-        label: String,
-    },
-    /// A place where something is measured.
-    Probe {
-        /// Where.
-        at: Point,
-        /// Text beside it.
-        label: String,
-    },
-    /// Text.
-    Note {
-        /// Where its middle is.
-        at: Point,
-        /// The text.
-        text: String,
-    },
+    /// A length, measured along a line beside the body between two points, with its text.
+    Length(Point, Point, String),
+    /// A place where something is measured, with its name.
+    Probe(Point, String),
+    /// Text with its middle at a point.
+    Note(Point, String),
 }
 
-impl Shape {
-    pub(crate) fn length(from: Point, to: Point, label: &str) -> Self {
-        Self::Length { from, to, label: label.to_owned() }
-    }
-
-    pub(crate) fn note(at: Point, text: &str) -> Self {
-        Self::Note { at, text: text.to_owned() }
-    }
-}
-
-/// A sketch.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sketch {
     /// Shapes, the last on top.
@@ -100,15 +71,15 @@ impl Sketch {
     }
 
     pub(crate) fn length(self, from: Point, to: Point, label: &str) -> Self {
-        self.with(Shape::length(from, to, label))
+        self.with(Shape::Length(from, to, label.to_owned()))
     }
 
     /// Adds a place where something is measured.
     pub(crate) fn probe(self, at: Point, label: &str) -> Self {
-        self.with(Shape::Probe { at, label: label.to_owned() })
+        self.with(Shape::Probe(at, label.to_owned()))
     }
 
     pub(crate) fn note(self, at: Point, text: &str) -> Self {
-        self.with(Shape::note(at, text))
+        self.with(Shape::Note(at, text.to_owned()))
     }
 }

@@ -2,12 +2,10 @@
 
 /// A straight line fitted by least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
-    /// Slope.
+pub(crate) struct Line {
     pub slope: f64,
     /// Standard error of the slope.
     pub slope_error: f64,
-    /// Value at zero.
     pub intercept: f64,
     /// Coefficient of determination R².
     pub r_squared: f64,
@@ -59,12 +57,7 @@ pub(crate) fn mean(values: impl IntoIterator<Item = f64>) -> f64 {
 
 /// Root mean square; NaN of nothing, which no check passes.
 pub(crate) fn rms(values: impl IntoIterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0usize);
-    for v in values {
-        sum += v * v;
-        count += 1;
-    }
-    (sum / count as f64).sqrt()
+    mean(values.into_iter().map(|v| v * v)).sqrt()
 }
 
 /// Rms of a field less its plane of best fit in each square of a `size` (m): an oscillation from particle to particle or

@@ -50,8 +50,8 @@ pub struct Table {
 
 impl Table {
     /// A table of columns of the same length, with their names.
-    pub(crate) fn of_columns(columns: Vec<(String, Vec<f64>)>) -> Self {
-        let (header, columns) = columns.into_iter().unzip();
+    pub(crate) fn of_columns(columns: impl IntoIterator<Item = (impl Into<String>, Vec<f64>)>) -> Self {
+        let (header, columns) = columns.into_iter().map(|(name, values)| (name.into(), values)).unzip();
         Self { header, columns }
     }
 

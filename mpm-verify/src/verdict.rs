@@ -86,7 +86,6 @@ impl Verdict {
 
     /// The verdict on a run that no tier plans. Known limits are established for planned runs, and some references are
     /// known for their parameters only: such a failure becomes *not judged*.
-    #[must_use]
     pub(crate) fn unplanned(self) -> Self {
         let is_nan = |number: Option<f64>| number.is_some_and(f64::is_nan);
         let why = match self.kind {

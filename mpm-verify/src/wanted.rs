@@ -6,7 +6,6 @@ use serde::Serialize;
 /// A quantity for which a case is run.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub struct Wanted {
-    /// Name.
     pub name: &'static str,
     /// The quantity, its norm and the time at which it counts.
     pub statement: &'static str,

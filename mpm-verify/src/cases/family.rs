@@ -69,6 +69,7 @@ mod tests {
     use crate::case::Tier;
     use crate::cases;
     use crate::parameter::Parameters;
+    use crate::record::fixture::spec;
     use crate::spec::RunSpec;
 
     #[test]
@@ -122,12 +123,7 @@ mod tests {
     /// Why a run with APIC and a changed parameter does not begin.
     fn refusal(case: &str, set: &str) -> String {
         let case = cases::find(case).unwrap();
-        let spec = RunSpec {
-            scheme: other_transfers()[0],
-            level: case.levels[0],
-            set: vec![set.to_owned()],
-            perturbed: false,
-        };
+        let spec = spec(other_transfers()[0], case.levels[0], &[set]);
         let parameters = Parameters::new(&case.parameters, &spec.set).unwrap();
         let begun = (case.begin)(&spec, &parameters);
         begun.err().unwrap().to_string()

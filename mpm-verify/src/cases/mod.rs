@@ -139,8 +139,7 @@ pub fn find_scored(name: &str) -> Result<(&'static Case, &'static Foreign), Erro
 }
 
 /// The place of a case among all; behind them if it is not known.
-#[must_use]
-pub fn place(name: &str) -> usize {
+pub(crate) fn place(name: &str) -> usize {
     ALL.iter().position(|c| c.name == name).unwrap_or(ALL.len())
 }
 

@@ -131,8 +131,9 @@ pub(super) fn mean_stress(run: &mut dyn Simulation<2>) -> (Vec<f64>, Vec<f64>) {
 mod tests {
     use super::*;
     use crate::parameter::Parameters;
+    use crate::record::fixture::spec;
     use crate::scheme::{BasisName, RemedyName};
-    use crate::spec::{Level, RunSpec};
+    use crate::spec::Level;
 
     #[test]
     fn the_particle_that_moved_farthest_decides() {
@@ -143,13 +144,8 @@ mod tests {
     #[test]
     fn walls_are_open_knots_unless_the_parameter_says_otherwise() {
         let treatment = |set: &[&str]| {
-            let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-            let spec = RunSpec {
-                scheme: Scheme::flip(BasisName::Gimp, RemedyName::None),
-                level: Level { name: "h1", h: 1.0 },
-                set,
-                perturbed: false,
-            };
+            let scheme = Scheme::flip(BasisName::Gimp, RemedyName::None);
+            let spec = spec(scheme, Level { name: "h1", h: 1.0 }, set);
             let values = Parameters::new(&[WALL], &spec.set).unwrap();
             Setup::<()>::of_spec(&spec, &values).unwrap().wall_treatment()
         };

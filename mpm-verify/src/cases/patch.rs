@@ -2,6 +2,7 @@
 //!
 //! Set-up, choices and tolerances: `docs/patch.md`.
 
+use crate::cases::build::DENSITY;
 use crate::cases::prelude::*;
 use crate::exact::transfers::{filtered, second_moment};
 use mpm_solvers::stable_cfl;
@@ -14,8 +15,7 @@ const DURATION: f64 = 1.0;
 /// falls, no faster than they.
 const WAVES: f64 = 1e-4;
 const FALLING_WAVES: f64 = 4.0;
-/// Density (kg/m³); side of the body (m).
-const DENSITY: f64 = 1000.0;
+/// Side of the body (m).
 const SIDE: f64 = 1.0;
 /// Velocity gradient, over the strain and the duration: nine entries, all different, that move every particle away from the walls.
 const GRADIENT: [[f64; 3]; 3] = [[0.9, 0.5, 0.8], [0.6, 1.1, 0.7], [1.2, 1.0, 1.3]];

@@ -3,7 +3,6 @@
 use super::run::Making;
 use super::*;
 use mpm_verify::cases::scene::SceneFile;
-use mpm_verify::draw::draw_charts;
 use mpm_verify::factor::Search;
 
 #[derive(Args)]
@@ -34,8 +33,7 @@ impl Factor {
         }
         if let Some(out) = self.making.folder() {
             let _held = hold(out)?;
-            draw_charts(&out.join("factor.png"), &[search.chart()], 1)?;
-            search.write(&out.join("factor.csv"))?;
+            search.write(out)?;
         }
         say(search.result() + "\n").map(|()| ExitCode::Good)
     }

@@ -35,13 +35,11 @@ fn changed(record: &Record, from: &Path, to: &Path) -> Record {
     }
     for (file, fixed) in [(series::FILE, "time (-)"), ("particles.csv", "")] {
         let table = Table::read(&from.join(file)).unwrap();
-        let larger = |(name, values): (&str, &[f64])| {
+        let larger = table.iter().map(|(name, values)| {
             let factor = if name == fixed { 1.0 } else { 1.1 };
-            let values = values.iter().map(|value| factor * value);
-            (name.to_owned(), values.collect())
-        };
-        let columns = table.iter().map(larger).collect();
-        Table::of_columns(columns).write(&to.join(file)).unwrap();
+            (name, values.iter().map(|value| factor * value).collect())
+        });
+        Table::of_columns(larger).write(&to.join(file)).unwrap();
     }
     other
 }

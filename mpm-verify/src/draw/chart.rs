@@ -8,8 +8,7 @@ use std::path::Path;
 
 /// Scale of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scale {
-    /// Linear.
+pub(crate) enum Scale {
     Linear,
     /// Logarithmic, base ten.
     Log10,
@@ -17,14 +16,11 @@ pub enum Scale {
 
 /// Line of a series.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dash {
-    /// Solid line.
+pub(crate) enum Dash {
     Solid,
-    /// Dashed line.
     Dashed,
-    /// Dotted line.
     Dotted,
-    /// No line: markers only.
+    /// Markers only.
     None,
 }
 
@@ -38,9 +34,7 @@ pub struct Series {
     pub points: Vec<(f64, f64)>,
     /// Index into the palette of eight colours (taken modulo eight).
     pub colour: usize,
-    /// Marker.
     pub marker: Marker,
-    /// Line.
     pub dash: Dash,
 }
 
@@ -72,19 +66,14 @@ pub struct SlopeTriangle {
 pub struct Chart {
     /// Title above the axes; may be empty.
     pub title: String,
-    /// Label of the abscissa.
     pub x_label: String,
-    /// Label of the ordinate.
     pub y_label: String,
-    /// Scale of the abscissa.
     pub x_scale: Scale,
-    /// Scale of the ordinate.
     pub y_scale: Scale,
     /// Curves, the last one on top.
     pub series: Vec<Series>,
     /// Horizontal reference lines, beneath the curves.
     pub reference_lines: Vec<ReferenceLine>,
-    /// Slope triangle.
     pub slope_triangle: Option<SlopeTriangle>,
     /// Range of the abscissa; without it, the data with a margin.
     pub x_range: Option<(f64, f64)>,
@@ -97,7 +86,6 @@ pub(super) const LEAST: Point = (560.0, 430.0);
 
 impl Series {
     /// A solid line without markers, in a colour of the palette.
-    #[must_use]
     pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Self { name: name.into(), points, colour, marker: Marker::None, dash: Dash::Solid }
     }
@@ -105,7 +93,6 @@ impl Series {
 
 impl ReferenceLine {
     /// A value that is known to an uncertainty: its band is hardly ever wide enough to be seen, so the name tells it.
-    #[must_use]
     pub fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
         let tolerance = tick_label(uncertainty, uncertainty, uncertainty);
         Self { name: format!("{name} ± {tolerance}"), value, band: Some(uncertainty) }
@@ -114,7 +101,6 @@ impl ReferenceLine {
 
 impl Chart {
     /// Curves over linear axes, whose labels are those of x and y, and nothing else.
-    #[must_use]
     pub fn new(title: impl Into<String>, labels: [&str; 2], series: Vec<Series>) -> Self {
         let [x_label, y_label] = labels.map(str::to_owned);
         Self {
@@ -189,7 +175,6 @@ impl Chart {
     }
 
     /// Whether there is a point to draw.
-    #[must_use]
     pub fn shows_something(&self) -> bool {
         self.series.iter().flat_map(|s| &s.points).any(finite)
     }
@@ -199,7 +184,7 @@ impl Chart {
 ///
 /// # Errors
 /// A non-positive value on a log axis; `path` is that of the picture they are for.
-pub fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize) -> Result<(), PlotError> {
+pub(crate) fn share_ranges_of_columns(path: &Path, charts: &mut [Chart], columns: usize) -> Result<(), PlotError> {
     for (column, upright) in (0..columns).flat_map(|k| [(k, false), (k, true)]) {
         let length = if upright { LEAST.1 } else { LEAST.0 };
         let ranges = charts.iter().skip(column).step_by(columns).filter(|c| c.shows_something());

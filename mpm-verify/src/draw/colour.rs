@@ -29,8 +29,7 @@ pub(super) fn channels(colour: Rgb) -> [u8; 3] {
 
 /// Ends of the colours of a stress or pressure that is expected to lie between zero and `most`. What has the wrong sign,
 /// such as tension in sand, is seen too, up to a quarter of that: the colours diverge from zero.
-#[must_use]
-pub const fn signed(most: f64) -> (f64, f64) {
+pub(crate) const fn signed(most: f64) -> (f64, f64) {
     let least = -0.25 * most;
     if most < least { (most, least) } else { (least, most) }
 }

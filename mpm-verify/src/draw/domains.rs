@@ -8,8 +8,7 @@ const APART: f64 = 2.5;
 
 /// Half the sides, along both axes of the start, of the domains of particles that were at `from` and are at `at`. Where a
 /// particle has neighbours in its `body`, at the distance `size` at the start, it is deformed as they have moved.
-#[must_use]
-pub fn domains(from: &[Point], at: &[Point], body: &[f64], size: f64) -> Vec<[Point; 2]> {
+pub(crate) fn domains(from: &[Point], at: &[Point], body: &[f64], size: f64) -> Vec<[Point; 2]> {
     let key = |k: usize, (i, j): (i64, i64)| {
         let [x, y] = [from[k].0, from[k].1].map(|x| (x / size).floor() as i64);
         (x + i, y + j, body.get(k).map_or(0, |body| body.to_bits()))

@@ -21,11 +21,11 @@ const GREY: Rgb = 0x8C8C8C;
 /// Half the sides of a domain, along two axes.
 type Sides = [Point; 2];
 /// A line through points, and whether it is a support's; a body's at the start is thin and grey.
-pub type Line = (Vec<(f64, f64)>, bool);
+pub(crate) type Line = (Vec<(f64, f64)>, bool);
 
 /// One snapshot of a particle field.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FieldPanel {
+pub(crate) struct FieldPanel {
     /// Title above the panel; may be empty.
     pub title: String,
     /// Particle positions.
@@ -40,8 +40,7 @@ pub struct FieldPanel {
 
 impl FieldPanel {
     /// Keeps only particles at places where `shown` holds.
-    #[must_use]
-    pub fn showing(mut self, shown: impl Fn((f64, f64)) -> bool) -> Self {
+    pub(crate) fn showing(mut self, shown: impl Fn((f64, f64)) -> bool) -> Self {
         let particles = self.points.into_iter().zip(self.values);
         (self.points, self.values) = particles.filter(|(at, _)| shown(*at)).unzip();
         self
@@ -53,7 +52,7 @@ impl FieldPanel {
 /// The colours diverge from a neutral zero when both signs take a good part of the range (the
 /// smaller end at least a fifth of the larger), otherwise they are sequential.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct FieldFigure {
+pub(crate) struct FieldFigure {
     /// Title above the panels; may be empty.
     pub title: String,
     /// Panels, row by row.
@@ -74,8 +73,7 @@ pub struct FieldFigure {
 
 impl FieldFigure {
     /// One panel, by label and range of the colour scale; all of it is shown.
-    #[must_use]
-    pub fn single(panel: FieldPanel, label: String, range: (f64, f64)) -> Self {
+    pub(crate) fn single(panel: FieldPanel, label: String, range: (f64, f64)) -> Self {
         Self { panels: vec![panel], columns: 1, range, label, ..Self::default() }
     }
 }
@@ -86,7 +84,7 @@ impl FieldFigure {
 ///
 /// A figure without finite points or range, a panel whose points and values differ in number, or a
 /// file that cannot be written.
-pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
+pub(crate) fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
     write_small_png(path, &picture(path, figure, 1)?)
 }
 
@@ -95,7 +93,7 @@ pub fn draw_fields(path: &Path, figure: &FieldFigure) -> Result<(), PlotError> {
 ///
 /// # Errors
 /// As [`draw_fields`]; or there are no figures.
-pub fn animate_fields(path: &Path, figures: &[FieldFigure], delay: u16) -> Result<(), PlotError> {
+pub(crate) fn animate_fields(path: &Path, figures: &[FieldFigure], delay: u16) -> Result<(), PlotError> {
     let frames = figures.par_iter().map(|figure| picture(path, figure, 2));
     save_animation(path, &frames.collect::<Result<Vec<_>, _>>()?, delay)
 }

@@ -15,15 +15,11 @@ const OUTLINE: f64 = 3.4;
 /// Marker of a series: filled with a solid line or none, hollow with a dashed or dotted line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Marker {
-    /// No marker.
     None,
-    /// Circle.
     Circle,
-    /// Square.
     Square,
     /// Upward triangle.
     Triangle,
-    /// Diamond.
     Diamond,
     /// Diagonal cross.
     Cross,

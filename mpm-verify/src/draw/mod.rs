@@ -21,15 +21,15 @@ pub(crate) mod style;
 mod text;
 pub(crate) mod triptych;
 
-pub use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges_of_columns};
-pub use colour::signed;
-pub use domains::domains;
-pub use field::{FieldFigure, FieldPanel, Line, animate_fields, draw_fields};
-pub use marker::Marker;
-pub use plot::draw_charts;
-pub use png_file::write_small_png;
-pub use ratios::{Ratios, draw_ratios};
-pub use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
+pub(crate) use chart::{Chart, Dash, ReferenceLine, Scale, Series, SlopeTriangle, share_ranges_of_columns};
+pub(crate) use colour::signed;
+pub(crate) use domains::domains;
+pub(crate) use field::{FieldFigure, FieldPanel, Line, animate_fields, draw_fields};
+pub(crate) use marker::Marker;
+pub(crate) use plot::draw_charts;
+pub(crate) use png_file::write_small_png;
+pub(crate) use ratios::{Ratios, draw_ratios};
+pub(crate) use solid::{SolidFigure, SolidPanel, animate_solids, draw_solids};
 
 use page::Point;
 use std::fmt::Display;
@@ -89,23 +89,14 @@ mod tests {
     use super::*;
 
     fn chart() -> Chart {
+        let points = vec![(0.5, 0.2), (0.25, 0.06), (f64::NAN, 0.03), (0.125, 0.013)];
+        let series = Series { marker: Marker::Circle, dash: Dash::Dashed, ..Series::line("scheme", points, 9) };
         Chart {
-            title: "Convergence".into(),
-            x_label: "cell size h (m)".into(),
-            y_label: "relative error".into(),
             x_scale: Scale::Log10,
             y_scale: Scale::Log10,
-            series: vec![Series {
-                name: "scheme".into(),
-                points: vec![(0.5, 0.2), (0.25, 0.06), (f64::NAN, 0.03), (0.125, 0.013)],
-                colour: 9,
-                marker: Marker::Circle,
-                dash: Dash::Dashed,
-            }],
             reference_lines: vec![ReferenceLine { name: "exact".into(), value: 0.05, band: Some(0.1) }],
             slope_triangle: Some(SlopeTriangle { slope: 2.0, at: (0.2, 0.01), decades: 0.3 }),
-            x_range: None,
-            y_range: None,
+            ..Chart::new("Convergence", ["cell size h (m)", "relative error"], vec![series])
         }
     }
 

@@ -93,7 +93,7 @@ impl<'a> Plan<'a> {
 ///
 /// A chart without finite points or given ranges, a non-positive value on a log axis, or a file that cannot be
 /// written.
-pub fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), PlotError> {
+pub(crate) fn draw_charts(path: &Path, charts: &[Chart], columns: usize) -> Result<(), PlotError> {
     let columns = columns.min(charts.len()).max(1);
     let size = [(1180.0, 760.0), (760.0, 560.0), LEAST][columns.min(3) - 1];
     let plans = charts.iter().map(|c| Plan::new(path, c, size)).collect::<Result<Vec<_>, _>>()?;

@@ -9,10 +9,7 @@ use std::path::Path;
 type Pixel = [u8; 3];
 
 /// Writes a picture as PNG, with a palette if it has no more than 256 colours.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
+pub(crate) fn write_small_png(path: &Path, image: &RgbImage) -> Result<(), PlotError> {
     let size = image.dimensions();
     let write = |bytes: &mut Vec<u8>| match with_palette(image) {
         Some((palette, indices)) => {

@@ -9,8 +9,7 @@ use std::path::Path;
 
 /// A picture of ratios.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ratios {
-    /// Title.
+pub(crate) struct Ratios {
     pub title: String,
     /// Meaning of a ratio below one and of one above.
     pub sides: [String; 2],
@@ -33,7 +32,7 @@ const MARKERS: [Marker; 2] = [Marker::Circle, Marker::Square];
 ///
 /// # Errors
 /// There are none, or the picture can't be written.
-pub fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
+pub(crate) fn draw_ratios(path: &Path, ratios: &Ratios) -> Result<(), PlotError> {
     if ratios.rows.is_empty() {
         return Err(PlotError::no_data(path, &ratios.title));
     }

@@ -28,10 +28,10 @@ const FINE: f64 = 0.7;
 pub(crate) fn svg(sketch: &Sketch, title: &str) -> String {
     let corners = sketch.shapes.iter().flat_map(|shape| match shape {
         Shape::Body(corners) => corners.clone(),
-        Shape::Held(from, to) | Shape::Load(from, to) | Shape::Length { from, to, .. } => {
+        Shape::Held(from, to) | Shape::Load(from, to) | Shape::Length(from, to, _) => {
             vec![*from, *to]
         }
-        Shape::Probe { at, .. } | Shape::Note { at, .. } => vec![*at],
+        Shape::Probe(at, _) | Shape::Note(at, _) => vec![*at],
     });
     let [left, bottom, right, top] = around(corners.map(|[x, y]| [x, y, x, y]));
     let scale = SPAN / (right - left).max(top - bottom);
@@ -47,14 +47,14 @@ pub(crate) fn svg(sketch: &Sketch, title: &str) -> String {
             Shape::Body(corners) => drawing.body(&corners.iter().map(place).collect::<Vec<_>>()),
             Shape::Held(from, to) => drawing.held(place(from), place(to)),
             Shape::Load(from, to) => drawing.load(place(from), place(to)),
-            Shape::Length { from, to, label } => drawing.length(place(from), place(to), label),
-            Shape::Probe { at, .. } => drawing.dot(place(at)),
-            Shape::Note { at, text } => drawing.text(place(at), [0.0, 0.0], text),
+            Shape::Length(from, to, label) => drawing.length(place(from), place(to), label),
+            Shape::Probe(at, _) => drawing.dot(place(at)),
+            Shape::Note(at, text) => drawing.text(place(at), [0.0, 0.0], text),
         }
     }
     // The labels of probes come last: they go where nothing else is.
     for shape in &sketch.shapes {
-        if let Shape::Probe { at, label } = shape {
+        if let Shape::Probe(at, label) = shape {
             drawing.probe_label(place(at), label);
         }
     }
@@ -264,20 +264,15 @@ mod tests {
 
     /// A tapered membrane, clamped on its left.
     fn membrane() -> Sketch {
-        let probe = |at: Point, label: &str| Shape::Probe { at, label: label.to_owned() };
-        Sketch {
-            shapes: vec![
-                Shape::Body(vec![[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]]),
-                Shape::Held([0.0, 0.0], [0.0, 44.0]),
-                Shape::Load([51.0, 45.0], [51.0, 59.0]),
-                Shape::length([-9.0, 0.0], [-9.0, 44.0], "44"),
-                Shape::length([0.0, -6.0], [48.0, -6.0], "48"),
-                Shape::note([20.0, 24.0], "a < b"),
-                probe([48.0, 60.0], "u_A"),
-                probe([24.0, 22.0], "<script>"),
-            ],
-            description: "a \"<'&",
-        }
+        Sketch::of("a \"<'&")
+            .body([[0.0, 0.0], [48.0, 44.0], [48.0, 60.0], [0.0, 44.0]])
+            .held([0.0, 0.0], [0.0, 44.0])
+            .load([51.0, 45.0], [51.0, 59.0])
+            .length([-9.0, 0.0], [-9.0, 44.0], "44")
+            .length([0.0, -6.0], [48.0, -6.0], "48")
+            .note([20.0, 24.0], "a < b")
+            .probe([48.0, 60.0], "u_A")
+            .probe([24.0, 22.0], "<script>")
     }
 
     /// An attribute of an element.

@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// A body at one time.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SolidPanel {
+pub(crate) struct SolidPanel {
     /// Title above the panel; may be empty.
     pub title: String,
     /// Positions of the particles (m); one that is not finite is left out.
@@ -31,7 +31,7 @@ pub struct SolidPanel {
 /// The colours diverge from a neutral zero as those of a [`FieldFigure`](super::FieldFigure); else they run from the
 /// lightest at the lower end to the darkest.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SolidFigure {
+pub(crate) struct SolidFigure {
     /// Title above the panels; may be empty.
     pub title: String,
     /// Panels, row by row.
@@ -77,7 +77,7 @@ type Place = [f64; 3];
 /// # Errors
 /// A figure without panels, a finite range or window that is not empty; a panel without a size or a particle in
 /// the window, or whose points and values differ in number; or a file that can't be written.
-pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
+pub(crate) fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
     write_small_png(path, &picture(path, figure, 1)?)
 }
 
@@ -86,7 +86,7 @@ pub fn draw_solids(path: &Path, figure: &SolidFigure) -> Result<(), PlotError> {
 ///
 /// # Errors
 /// As [`draw_solids`]; or there are no figures.
-pub fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Result<(), PlotError> {
+pub(crate) fn animate_solids(path: &Path, figures: &[SolidFigure], delay: u16) -> Result<(), PlotError> {
     let frames = figures.iter().map(|figure| picture(path, figure, 2));
     save_animation(path, &frames.collect::<Result<Vec<_>, _>>()?, delay)
 }

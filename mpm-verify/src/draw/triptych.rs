@@ -10,7 +10,6 @@ const GAP: u32 = 24;
 const FADED: f64 = 0.25;
 
 /// Pixels that differ, counting those that only one picture has.
-#[must_use]
 pub(crate) fn different_pixels(old: &RgbImage, new: &RgbImage) -> usize {
     let (width, height) = joint_size(old, new);
     (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| differ(old, new, x, y)).count()
@@ -25,7 +24,6 @@ fn differ(old: &RgbImage, new: &RgbImage, x: u32, y: u32) -> bool {
 }
 
 /// Old, new, and the new one faded with what differs in red, from left to right.
-#[must_use]
 pub(crate) fn triptych(old: &RgbImage, new: &RgbImage) -> RgbImage {
     let (width, height) = joint_size(old, new);
     let mut all = RgbImage::from_pixel(3 * width + 2 * GAP, height, WHITE);

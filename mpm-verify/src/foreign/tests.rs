@@ -13,9 +13,8 @@ const FORCE: Asked = Asked::series("force", "N", "");
 fn given(heads: [&str; 2]) -> Given {
     let case = cases::find("cook").unwrap();
     let spec = case.runs(Tier::Pr).remove(0);
-    let column = |head: &str, values: &[f64]| (head.to_owned(), values.to_vec());
-    let particles = vec![column("x0 (m)", &[0.75, 0.25]), column("y0 (m)", &[0.25, -0.25])];
-    let series = vec![column(heads[0], &[0.0, 1.0, 2.0]), column(heads[1], &[0.0, 3.0, 5.0])];
+    let particles = [("x0 (m)", vec![0.75, 0.25]), ("y0 (m)", vec![0.25, -0.25])];
+    let series = [(heads[0], vec![0.0, 1.0, 2.0]), (heads[1], vec![0.0, 3.0, 5.0])];
     let tables = [(Part::Particles, particles), (Part::Series, series)];
     let table = |(part, columns): (Part, _)| {
         let path = PathBuf::from(part.name()).with_extension("csv");
@@ -53,16 +52,7 @@ fn columns_and_tables_are_asked_for_once() {
     }
     let group = |columns| Group { columns, metrics: Vec::new(), measure: nothing };
     let (_, own) = cases::find_scored("cook").unwrap();
-    let foreign = Foreign {
-        groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])],
-        judged_as: own.judged_as,
-        discretisation: own.discretisation,
-        abscissa: None,
-        gaps: own.gaps,
-        start: own.start,
-        own_checks: own.own_checks,
-        curves: own.curves,
-    };
+    let foreign = Foreign { groups: vec![group(&[X, TIME]), group(&[X, Y, FORCE])], ..*own };
     assert_eq!(foreign.columns(), [X, TIME, Y, FORCE]);
     assert_eq!(foreign.parts(), [Part::Particles, Part::Series]);
     let names: Vec<&str> = foreign.parts().into_iter().map(Part::name).collect();
@@ -133,8 +123,8 @@ fn a_head_that_misses_a_name_by_its_form_is_refused_with_the_name() {
 fn a_table_has_a_row_and_not_too_many() {
     let rows = |count: usize| {
         let mut given = given(["time (s)", "force (N)"]);
-        let column = ("time (s)".to_owned(), vec![0.0; count]);
-        given.tables = vec![(Part::Series, "a.csv".into(), Table::of_columns(vec![column]))];
+        let table = Table::of_columns([("time (s)", vec![0.0; count])]);
+        given.tables = vec![(Part::Series, "a.csv".into(), table)];
         given.require_heads(&[TIME]).map_err(|e| e.to_string())
     };
     for count in [1, MOST_ROWS] {

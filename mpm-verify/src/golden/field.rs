@@ -56,9 +56,9 @@ pub(super) fn bless(
     rows.retain(shown);
     let column = |k: usize| {
         let digits = if k == 0 { 10 } else { 4 };
-        (COLUMNS[k].to_owned(), rows.iter().map(|row| rounded(row[k], digits)).collect())
+        (COLUMNS[k], rows.iter().map(|row| rounded(row[k], digits)).collect())
     };
-    Table::of_columns([0, 1, 2, 3].map(column).into()).write(file)?;
+    Table::of_columns([0, 1, 2, 3].map(column)).write(file)?;
     Ok(write_small_png(picture, &draw(view, record, &read(file)?)?)?)
 }
 

@@ -25,9 +25,7 @@ impl Made {
         record.scheme = spec.scheme;
         record.set = spec.set;
         for (name, value) in [("tip_uy", 10.0), ("mass", -2.0)] {
-            let unit = "m".to_owned();
-            let value = Some(value);
-            record.metrics.insert(name.to_owned(), Measured { value, unit });
+            record.metrics.insert(name.to_owned(), Measured::of(value, "m"));
         }
         let made = Self { folder: tempfile::tempdir().unwrap(), record };
         fs::create_dir(made.goldens()).unwrap();
@@ -42,9 +40,7 @@ impl Made {
     }
 
     fn write(&self, file: &str, columns: &[(&str, Vec<f64>)]) {
-        let columns = columns.iter().map(|(name, values)| ((*name).to_owned(), values.clone()));
-        let table = Table::of_columns(columns.collect());
-        table.write(&self.folder.path().join(file)).unwrap();
+        Table::of_columns(columns.iter().cloned()).write(&self.folder.path().join(file)).unwrap();
     }
 
     /// Sixteen rows, of which every second is kept.

@@ -1,8 +1,10 @@
-//! Records of runs that were never made, for tests.
+//! Records and setups of runs that were never made, for tests.
 
-use super::{Measured, Record};
-use crate::parameter::{Parameter, Parameters};
+use super::{Failure, Measured, Record, Status};
+use crate::parameter::{Parameter, ParameterSet, Parameters};
 use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::setup::Setup;
+use crate::spec::{Level, RunSpec};
 use crate::verdict::Verdict;
 
 /// A run of standard MPM with GIMP at the case's own parameters.
@@ -34,11 +36,38 @@ pub(crate) fn run(
     let mut record = record(level, Vec::new());
     record.scheme = Scheme::flip(basis, remedy);
     record.discretisation.h = h;
-    record.set = set.iter().map(|s| (*s).to_owned()).collect();
+    record.set = changed(set);
     record.parameters = Parameters::new(parameters, &record.set).unwrap();
-    for (name, value) in metrics {
-        let metric = Measured { value: Some(*value), unit: "-".to_owned() };
-        record.metrics.insert((*name).to_owned(), metric);
-    }
+    record.measure(metrics);
     record
+}
+
+impl Record {
+    /// Adds metrics without units.
+    pub(crate) fn measure(&mut self, metrics: &[(&str, f64)]) {
+        self.metrics.extend(metrics.iter().map(|(name, value)| ((*name).to_owned(), Measured::of(*value, "-"))));
+    }
+
+    /// Breaks down at a time (s).
+    pub(crate) fn break_down(&mut self, kind: &str, time: f64, message: &str) {
+        let (kind, message) = (kind.to_owned(), message.to_owned());
+        self.status = Status::Failed;
+        self.error = Some(Failure { kind, time, step: 1, particle: 0, value: None, message });
+    }
+}
+
+/// Changed parameters as a run has them.
+pub(crate) fn changed(set: &[&str]) -> Vec<String> {
+    set.iter().map(|s| (*s).to_owned()).collect()
+}
+
+pub(crate) fn spec(scheme: Scheme, level: Level, set: &[&str]) -> RunSpec {
+    RunSpec { scheme, level, set: changed(set), perturbed: false }
+}
+
+/// The setup of a run of a case with these parameters.
+pub(crate) fn setup<P: ParameterSet>(scheme: Scheme, level: Level, set: &[&str]) -> Setup<P> {
+    let spec = spec(scheme, level, set);
+    let values = Parameters::new(&P::list(), &spec.set).unwrap();
+    Setup::of_spec(&spec, &values).unwrap()
 }

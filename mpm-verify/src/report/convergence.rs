@@ -147,38 +147,18 @@ fn by_cost(errors: &Errors, quantity: &Quantity, panel: &Panel, chart: Chart) ->
 mod tests {
     use super::*;
     use crate::metric::{error, metric};
-    use crate::scheme::{BasisName, RemedyName, Scheme};
-
-    /// A curve of a scheme with GIMP through errors and the pairs that they cost.
-    fn curve(remedy: RemedyName, runs: &[(u64, f64)]) -> Convergence {
-        let point = |&(pairs, value): &(u64, f64)| Point {
-            level: String::new(),
-            set: Vec::new(),
-            h: 1.0,
-            value,
-            cpu_s: 1.0,
-            particle_node_pairs: pairs,
-        };
-        Convergence {
-            set: Vec::new(),
-            scheme: Scheme::flip(BasisName::Gimp, remedy),
-            metric: "e".to_owned(),
-            is_error: true,
-            points: runs.iter().map(point).collect(),
-            order: None,
-            extrapolation: None,
-            remark: None,
-        }
-    }
+    use crate::record::fixture::changed;
+    use crate::report::fixture::curve;
+    use crate::scheme::RemedyName;
 
     /// With two curves of a scheme the line joins points that are clearly better than all cheaper ones; the front goes
     /// through the best runs of all.
     #[test]
     fn a_line_joins_what_its_scheme_does_best() {
         let curves = [
-            curve(RemedyName::None, &[(10, 0.5), (100, 0.1)]),
-            curve(RemedyName::None, &[(20, 0.6), (50, -0.2), (200, 0.099)]),
-            curve(RemedyName::FbarRate, &[(40, 0.3), (400, 0.02)]),
+            curve(RemedyName::None, &[], &[(10, 0.5), (100, 0.1)]),
+            curve(RemedyName::None, &[], &[(20, 0.6), (50, -0.2), (200, 0.099)]),
+            curve(RemedyName::FbarRate, &[], &[(40, 0.3), (400, 0.02)]),
         ];
         let errors = errors(curves.iter(), COSTS[0].2, COSTS[0].3);
         let quantity = error(metric("e", "-", ""), "error");
@@ -199,7 +179,7 @@ mod tests {
 
     #[test]
     fn changed_parameters_make_a_plain_name_of_a_file() {
-        let slug = |set: &[&str]| slug(&set.iter().map(|s| (*s).to_owned()).collect::<Vec<_>>());
+        let slug = |set: &[&str]| slug(&changed(set));
         assert_eq!(slug(&["poisson_ratio=0.4999"]), "poisson_ratio-0.4999");
         assert_eq!(slug(&["load=-2", "wall=a/b"]), "load--2+wall-a-b");
     }

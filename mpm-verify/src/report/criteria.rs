@@ -16,7 +16,6 @@ const ERROR: &str = "displacement_l2";
 /// number, as that of numbers on pages.
 const CRITERIA: &str = include_str!("../../assets/criteria.csv");
 
-/// A criterion.
 #[derive(Clone, Deserialize)]
 struct Criterion {
     table: String,

@@ -110,8 +110,7 @@ pub fn explain_json(case: &Case) -> Value {
 }
 
 /// One verdict: outcome, check, metric and demand; where it is not right, why.
-#[must_use]
-pub fn verdict_line(v: &Verdict) -> String {
+pub(crate) fn verdict_line(v: &Verdict) -> String {
     let name = format!("{:14}", outcome(v.outcome));
     let told = match v.kind {
         Kind::Truth | Kind::KnownLimit => v.check.clone(),
@@ -281,6 +280,7 @@ mod tests {
     use super::*;
     use crate::cases;
     use crate::check::Finding;
+    use crate::problem::measured;
     use crate::record::fixture::record as run;
     use crate::report::fixture;
 
@@ -304,9 +304,7 @@ mod tests {
             });
             let mut own = run("h2", checks.to_vec());
             for m in &case.metrics {
-                let (value, unit) = (Some(-1.234_567e-9), m.unit.to_owned());
-                let measured = crate::record::Measured { value, unit };
-                own.metrics.insert(m.name.to_owned(), measured);
+                own.metrics.extend([measured((*m, -1.234_567e-9))]);
             }
             texts.push(record(case, &own));
         }

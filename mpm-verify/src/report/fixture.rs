@@ -2,8 +2,9 @@
 
 use crate::check::Finding;
 use crate::night::Night;
-use crate::record::fixture::record;
-use crate::record::{Failure, Status};
+use crate::record::fixture::{changed, record};
+use crate::scheme::{BasisName, RemedyName, Scheme};
+use crate::study::convergence::{Convergence, Point};
 use crate::study::summary::{CaseStudy, Counts, Summary};
 use crate::verdict::Kind;
 
@@ -17,17 +18,9 @@ pub(super) fn summary() -> Summary {
     let skipped = Finding::not_applicable("tip_uy", NASTY).verdict("tip", Kind::Truth);
     let broke = Finding::within("run", 0.0, 1.0, 0.0, NASTY).verdict("completes", Kind::Bookkeeping);
     let mut failed = record("h2", vec![pass.clone(), fail]);
-    failed.set = vec!["cfl=0.1".to_owned(), NASTY.to_owned()];
+    failed.set = changed(&["cfl=0.1", NASTY]);
     let mut broken = record("h0.5", vec![broke]);
-    broken.status = Status::Failed;
-    broken.error = Some(Failure {
-        kind: "inverted".to_owned(),
-        time: 1.0,
-        step: 2,
-        particle: 3,
-        value: None,
-        message: NASTY.to_owned(),
-    });
+    broken.break_down("inverted", 1.0, NASTY);
     Summary {
         schema: 1,
         tier: NASTY.to_owned(),
@@ -45,5 +38,25 @@ pub(super) fn summary() -> Summary {
             night: Some(Night { date: jiff::civil::date(2026, 1, 2), commit: NASTY.to_owned() }),
             ..CaseStudy::new("cook", vec![record("h1", vec![pass, skipped]), failed, broken])
         }],
+    }
+}
+
+/// A run's error, and the pairs that it costs, at a million a second.
+pub(super) fn point((particle_node_pairs, value): (u64, f64)) -> Point {
+    let cpu_s = 1e-6 * particle_node_pairs as f64;
+    Point { level: String::new(), set: Vec::new(), h: 1.0, value, cpu_s, particle_node_pairs }
+}
+
+/// The errors `e` of a scheme with GIMP, and the pairs that they cost.
+pub(super) fn curve(remedy: RemedyName, set: &[&str], runs: &[(u64, f64)]) -> Convergence {
+    Convergence {
+        set: changed(set),
+        scheme: Scheme::flip(BasisName::Gimp, remedy),
+        metric: "e".to_owned(),
+        is_error: true,
+        points: runs.iter().copied().map(point).collect(),
+        order: None,
+        extrapolation: None,
+        remark: None,
     }
 }

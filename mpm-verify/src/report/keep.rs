@@ -72,7 +72,6 @@ fn merge(former: Vec<Row>, fresh: Vec<Row>) -> Vec<Row> {
 mod tests {
     use super::*;
     use crate::check::Finding;
-    use crate::record::Measured;
     use crate::record::fixture::record;
     use crate::verdict::Kind;
 
@@ -87,11 +86,7 @@ mod tests {
             let counted = Finding::within("run", 1.0, 1.0, 0.0, "").verdict("completes", Kind::Bookkeeping);
             let mut run = record(level, vec![exact, counted]);
             run.case = case.to_owned();
-            let (value, unit) = (Some(*value), "m".to_owned());
-            for name in ["tip_ux", "cited_by_a_page"] {
-                let unit = unit.clone();
-                run.metrics.insert(name.to_owned(), Measured { value, unit });
-            }
+            run.measure(&[("tip_ux", *value), ("cited_by_a_page", *value)]);
             run
         });
         let night = Night::new(date, "commit").unwrap();

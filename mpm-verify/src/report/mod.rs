@@ -16,7 +16,7 @@ mod fate;
 mod faults;
 #[cfg(test)]
 mod fixture;
-pub mod history;
+mod history;
 pub mod junit;
 pub mod keep;
 mod map;
@@ -52,7 +52,7 @@ const SUMMARY: &str = "summary.json";
 pub enum Files {
     /// All.
     All,
-    /// Records, and tables that a picture or a golden shows: see [`slim`].
+    /// Records, and tables that a picture or a golden shows: see `run::slim`.
     Shown,
 }
 

@@ -216,19 +216,9 @@ mod tests {
     use super::*;
     use crate::check::Finding;
     use crate::record::fixture::record;
-    use crate::scheme::{BasisName, TransferName};
+    use crate::report::fixture::{curve, point};
+    use crate::scheme::BasisName;
     use crate::verdict::Kind;
-
-    fn point(value: f64, pairs: u64) -> Point {
-        Point {
-            level: String::new(),
-            set: Vec::new(),
-            h: 1.0,
-            value,
-            cpu_s: 1e-6 * pairs as f64,
-            particle_node_pairs: pairs,
-        }
-    }
 
     #[test]
     fn the_front_holds_what_none_beats() {
@@ -244,13 +234,13 @@ mod tests {
 
     #[test]
     fn a_cost_is_interpolated_in_logarithms() {
-        let points = [point(-0.4, 100), point(0.1, 1600)];
+        let points = [(100, -0.4), (1600, 0.1)].map(point);
         let half_way = cost(&points, 0.2).unwrap();
         assert!((half_way.pairs - 400.0).abs() < 1e-9 && !half_way.at_most);
         let coarse = cost(&points, 0.5).unwrap();
         assert!(coarse.at_most && coarse.pairs == 100.0);
         assert_eq!(cost(&points, 0.05), None);
-        let lucky = [point(0.01, 100), point(0.4, 800), point(0.1, 6400)];
+        let lucky = [(100, 0.01), (800, 0.4), (6400, 0.1)].map(point);
         assert!(cost(&lucky, 0.2).unwrap().pairs > 800.0);
         assert_eq!(cost(&lucky[..2], 0.2), None);
     }
@@ -258,22 +248,11 @@ mod tests {
     /// A scheme costs what its cheapest curve costs; a bound on a cost is one on its ratio.
     #[test]
     fn the_cheapest_curve_of_a_scheme_counts() {
-        let curve = |remedy, set: &[&str], points: &[Point]| Convergence {
-            set: set.iter().map(|s| (*s).to_owned()).collect(),
-            scheme: Scheme::explicit(BasisName::Gimp, remedy, TransferName::Flip),
-            metric: "e".to_owned(),
-            is_error: true,
-            points: points.to_vec(),
-            order: None,
-            extrapolation: None,
-            remark: None,
-        };
-        let (coarse, fine) = (point(0.4, 100), point(0.1, 1600));
-        let dear = [point(0.4, 400), point(0.1, 6400)];
+        let (coarse, fine) = ((100, 0.4), (1600, 0.1));
         let curves = [
-            curve(RemedyName::None, &[], &dear),
-            curve(RemedyName::None, &["cfl=0.6"], &[coarse.clone(), fine.clone()]),
-            curve(RemedyName::FbarRate, &[], &[fine.clone(), fine]),
+            curve(RemedyName::None, &[], &[(400, 0.4), (6400, 0.1)]),
+            curve(RemedyName::None, &["cfl=0.6"], &[coarse, fine]),
+            curve(RemedyName::FbarRate, &[], &[fine, fine]),
             curve(RemedyName::FbarTotal, &[], &[coarse]),
         ];
         let quantity = crate::metric::error(crate::metric::metric("e", "-", ""), "error");
@@ -281,7 +260,7 @@ mod tests {
         let run = |remedy, set: &str| {
             let limit = Finding::above("e", 1.0, 0.5, "locks").verdict("locked", Kind::KnownLimit);
             let mut run = record("n8", vec![limit]);
-            run.scheme = Scheme::explicit(BasisName::Gimp, remedy, TransferName::Flip);
+            run.scheme = Scheme::flip(BasisName::Gimp, remedy);
             run.set = vec![set.to_owned()];
             run
         };

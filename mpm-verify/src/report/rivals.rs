@@ -150,21 +150,19 @@ pub(super) fn table<'a>(records: &[&'a Record]) -> Result<(Sheet, Vec<&'a Record
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
+    use crate::record::fixture::{changed, record};
     use crate::scheme::{RuleName, Scheme};
 
     fn run(rule: Option<RuleName>, level: &str, set: &[&str], error: f64, cpu: f64) -> Record {
         let mut r = record(level, Vec::new());
-        r.set = set.iter().map(|s| (*s).to_owned()).collect();
+        r.set = changed(set);
         let (basis, remedy) = (BasisName::Gimp, RemedyName::FbarConsistent);
         r.scheme = match rule {
             Some(rule) => Scheme::implicit(rule, basis, remedy),
             None => Scheme::flip(basis, remedy),
         };
         r.solver = r.scheme.solver().to_owned();
-        let value = Measured { value: Some(error), unit: "-".to_owned() };
-        r.metrics.insert("fem_tip_error".to_owned(), value);
+        r.measure(&[("fem_tip_error", error)]);
         r.time.cpu_s = cpu;
         r
     }

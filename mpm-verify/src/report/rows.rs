@@ -92,8 +92,7 @@ impl Row {
         let parameters = Parameters::new(&case.parameters, &set).ok()?;
         let metrics = self.metrics.iter().filter_map(|(name, value)| {
             let unit = case.metrics.iter().find(|m| m.name == name)?.unit;
-            let (value, unit) = (Some(*value), unit.to_owned());
-            Some((name.clone(), Measured { value, unit }))
+            Some((name.clone(), Measured::of(*value, unit)))
         });
         let broke = self.status.strip_prefix(BROKE);
         // Rows of former programs have no kind.
@@ -225,7 +224,7 @@ pub(super) fn text(rows: &[Row]) -> Result<Vec<u8>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::fixture::record;
+    use crate::record::fixture::{changed, record};
 
     #[test]
     fn numbers_have_six_digits() {
@@ -259,18 +258,9 @@ mod tests {
     #[test]
     fn a_row_gives_back_what_it_keeps_of_a_record() {
         let mut run = record("h2", Vec::new());
-        run.set = vec!["cfl=0.2".to_owned()];
-        run.status = Status::Failed;
-        run.error = Some(Failure {
-            kind: "off-grid".to_owned(),
-            time: 1.5,
-            step: 3,
-            particle: 0,
-            value: None,
-            message: String::new(),
-        });
-        let (value, unit) = (Some(-0.25), "m".to_owned());
-        run.metrics.insert("tip_ux".to_owned(), Measured { value, unit });
+        run.set = changed(&["cfl=0.2"]);
+        run.break_down("off-grid", 1.5, "");
+        run.metrics.insert("tip_ux".to_owned(), Measured::of(-0.25, "m"));
         let night = Night::new("2026-01-01", "commit").unwrap();
         let row = Row::of(&run, &night, &BTreeSet::from(["tip_ux"]));
         let again = row.record().unwrap();

@@ -160,19 +160,14 @@ fn ratio(prices: &Prices) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
+    use crate::record::fixture;
 
     /// Cook's membrane, where standard MPM never comes near and the pressure takes F̄ more.
     fn cook() -> CaseStudy {
         let run = |remedy, level: &str, (h, pairs): (f64, u64), errors: [f64; 2]| {
-            let mut run = record(level, Vec::new());
-            run.scheme = Scheme::flip(BasisName::Gimp, remedy);
-            (run.discretisation.h, run.work.particle_node_pairs) = (h, pairs);
-            for (name, value) in ["fem_edge_mean_error", "mean_stress_rms_error"].into_iter().zip(errors) {
-                let (value, unit) = (Some(value), "-".to_owned());
-                run.metrics.insert(name.to_owned(), Measured { value, unit });
-            }
+            let errors = [("fem_edge_mean_error", errors[0]), ("mean_stress_rms_error", errors[1])];
+            let mut run = fixture::run(&[], (BasisName::Gimp, remedy), (level, h), &[], &errors);
+            run.work.particle_node_pairs = pairs;
             run
         };
         let runs = [
@@ -188,9 +183,7 @@ mod tests {
     fn the_price_of_a_remedy_is_that_of_the_motion_and_that_of_the_pressure() {
         let mut study = cook();
         // What half reach is what the worse of two reaches.
-        study.records[3]
-            .metrics
-            .insert("fem_edge_mean_error".to_owned(), Measured { value: Some(0.45), unit: "-".to_owned() });
+        study.records[3].measure(&[("fem_edge_mean_error", 0.45)]);
         let speed = Speed::of([&study]);
         let rows = speed.table().rows;
         assert_eq!(rows.len(), 2);

@@ -135,7 +135,6 @@ fn orders<'a>(convergence: impl Iterator<Item = &'a Convergence>) -> Sheet {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Measured;
     use crate::record::fixture::record;
     use crate::study::convergence::convergence;
 
@@ -147,10 +146,7 @@ mod tests {
                 let mut run = record(level, Vec::new());
                 run.set = set.to_vec();
                 run.discretisation.h = h;
-                for (name, value) in [("mean_stress_rms_error", -h * h), ("tip_ux", h)] {
-                    let (value, unit) = (Some(value), "-".to_owned());
-                    run.metrics.insert(name.to_owned(), Measured { value, unit });
-                }
+                run.measure(&[("mean_stress_rms_error", -h * h), ("tip_ux", h)]);
                 records.push(run);
             }
         }

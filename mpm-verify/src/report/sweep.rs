@@ -83,23 +83,15 @@ impl<'a> Runs<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::Parameters;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
-    use crate::scheme::RemedyName;
+    use crate::record::fixture;
 
     fn cook() -> &'static Case {
         cases::find("cook").unwrap()
     }
 
     fn run(level: &str, remedy: RemedyName, set: &[&str]) -> Record {
-        let mut run = record(level, Vec::new());
-        run.scheme = Scheme::flip(run.basis(), remedy);
-        run.set = set.iter().map(|s| (*s).to_owned()).collect();
-        run.parameters = Parameters::new(&cook().parameters, &run.set).unwrap();
-        let (value, unit) = (Some(0.01), "-".to_owned());
-        run.metrics.insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
-        run
+        let error = [("fem_edge_mean_error", 0.01)];
+        fixture::run(&cook().parameters, (BasisName::Gimp, remedy), (level, 1.0), set, &error)
     }
 
     /// Two values at the finest level, three at the next, for one of two schemes.

@@ -126,8 +126,7 @@ impl Plot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
+    use crate::record::fixture::{changed, record};
 
     #[test]
     fn panels_name_what_there_is() {
@@ -158,9 +157,8 @@ mod tests {
             let mut run = record(level, Vec::new());
             run.case = shock.case.clone();
             run.scheme = Scheme::parse("gimp-none-flip").unwrap();
-            run.set = set.iter().map(|s| (*s).to_owned()).collect();
-            let (value, unit) = (Some(overshoot), "-".to_owned());
-            run.metrics.insert("overshoot".to_owned(), Measured { value, unit });
+            run.set = changed(set);
+            run.measure(&[("overshoot", overshoot)]);
             run
         };
         let runs = [

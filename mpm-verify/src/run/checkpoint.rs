@@ -38,8 +38,7 @@ pub struct Saving {
 
 impl Saving {
     /// The default interval, resuming from an existing checkpoint.
-    #[must_use]
-    pub fn resuming() -> Self {
+    pub(crate) fn resuming() -> Self {
         Self { every: Duration::from_secs(EVERY_S), resume: true }
     }
 }
@@ -249,8 +248,7 @@ impl Keeper {
     }
 
     /// Whether it is time for the next checkpoint.
-    #[must_use]
-    pub fn due(&self) -> bool {
+    pub(crate) fn due(&self) -> bool {
         self.last.elapsed() >= self.every
     }
 
@@ -265,10 +263,7 @@ impl Keeper {
     }
 
     /// Ends: a run that has its record needs no checkpoint.
-    ///
-    /// # Errors
-    /// The file can't be removed.
-    pub fn end(self) -> Result<(), Error> {
+    pub(crate) fn end(self) -> Result<(), Error> {
         discard(&self.folder)
     }
 }

@@ -3,8 +3,8 @@
 pub mod checkpoint;
 pub mod series;
 pub mod size;
-pub mod slim;
-pub mod vtu;
+pub(crate) mod slim;
+pub(crate) mod vtu;
 
 use crate::case::Case;
 use crate::error::Error;

@@ -38,10 +38,7 @@ impl Write for Tallied {
 
 impl Series {
     /// Begins a series in `folder`, in place of what is there.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn begin(folder: &Path) -> Result<Self, Error> {
+    pub(crate) fn begin(folder: &Path) -> Result<Self, Error> {
         let path = folder.join(FILE);
         discard(&path)?;
         let file = Output::create(&path).map_err(|e| Error::file(&path, e))?;
@@ -88,10 +85,7 @@ impl Series {
     }
 
     /// Adds a row, below the names of its columns if it is the first.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn add(&mut self, Row(row): &Row) -> Result<(), Error> {
+    pub(crate) fn add(&mut self, Row(row): &Row) -> Result<(), Error> {
         let begins = self.writer.get_ref().bytes == 0;
         self.write(|writer| {
             if begins {
@@ -102,10 +96,7 @@ impl Series {
     }
 
     /// How far the series has come; what stands there stays even if the machine fails.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn secure(&self) -> Result<Mark, Error> {
+    pub(crate) fn secure(&self) -> Result<Mark, Error> {
         let tallied = self.writer.get_ref();
         tallied.file.sync().map_err(|e| Error::file(&self.path, e))?;
         Ok(Mark { bytes: tallied.bytes, checksum: tallied.checksum.clone().finalize() })

@@ -145,12 +145,7 @@ mod tests {
     use crate::cases;
 
     fn spec(case: &Case, level: usize, set: &[&str]) -> RunSpec {
-        RunSpec {
-            scheme: case.default_scheme(None),
-            level: case.levels[level],
-            set: set.iter().map(|s| (*s).to_owned()).collect(),
-            perturbed: false,
-        }
+        crate::record::fixture::spec(case.default_scheme(None), case.levels[level], set)
     }
 
     /// An extrapolated size equals that of the scene itself.

@@ -7,14 +7,14 @@ use crate::record::SCHEMA;
 use crate::table::Table;
 
 /// Rows of a series that no picture shows: a multiple of those of a golden, which are among them.
-pub const ROWS: usize = 400;
+pub(crate) const ROWS: usize = 400;
 
 /// Removes the files of the run in `folder` that nothing reads: particles and snapshots that are not among the tables `shown`,
 /// what is for ParaView, and all but [`ROWS`] rows of a series that is not among them. The record vouches for the others.
 ///
 /// # Errors
 /// A file can't be read, written or removed.
-pub fn slim(folder: &Path, shown: &BTreeSet<PathBuf>) -> Result<(), Error> {
+pub(crate) fn slim(folder: &Path, shown: &BTreeSet<PathBuf>) -> Result<(), Error> {
     let path = folder.join(RECORD);
     let mut record: Record = read_versioned(&path, SCHEMA)?;
     for name in tables(folder)? {

@@ -23,19 +23,13 @@ const BLOCK: usize = 1 << 20;
 
 /// Writes particles as vertices: the columns `x`, `y`, `z` (those that exist) are the points, all others are point data:
 /// vectors and symmetric tensors whole, under plain names. A number beyond single precision becomes infinite.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
+pub(crate) fn write_vtu(path: &Path, columns: &[Column]) -> Result<(), Error> {
     let document = grid(columns).map_err(|e| Error::file(path, e))?;
     write_whole(path, &document)
 }
 
 /// Writes a collection of files, each with its time (s) and its path from the folder of the collection.
-///
-/// # Errors
-/// The file can't be written.
-pub fn write_pvd(path: &Path, members: &[(f64, String)]) -> Result<(), Error> {
+pub(crate) fn write_pvd(path: &Path, members: &[(f64, String)]) -> Result<(), Error> {
     write_whole(path, collection(members).as_bytes())
 }
 

@@ -89,7 +89,7 @@ fn table(bytes: &[u8]) -> Result<(Table, Vec<u64>), String> {
         }
         lines.push(line);
     }
-    Ok((Table::of_columns(heads.into_iter().zip(columns).collect()), lines))
+    Ok((Table::of_columns(heads.into_iter().zip(columns)), lines))
 }
 
 /// Line of a record: the reader has the place before the empty lines in front of it.

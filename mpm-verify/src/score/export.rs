@@ -5,6 +5,7 @@ use super::*;
 use crate::files::{make_folder, write_csv, write_json, write_whole};
 use crate::foreign::Group;
 use crate::parameter::Parameter;
+use crate::problem::measured;
 use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -27,7 +28,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
     let columns = start.into_iter().map(|c| (format!("{} ({})", c.name, c.unit), c.values));
-    Table::of_columns(columns.collect()).write(&folder.join(START))?;
+    Table::of_columns(columns).write(&folder.join(START))?;
     let discretisation = (foreign.discretisation)(spec, &parameters)?;
     write_json(&folder.join("parameters.json"), &described(case, spec, &parameters, discretisation.dim))?;
     let demands = demands(case, foreign, Record::blank(case.name, spec, &parameters, discretisation, 0));
@@ -98,8 +99,7 @@ fn form(case: &Case, foreign: &Foreign, spec: &RunSpec) -> String {
 fn demands<'a>(case: &Case, foreign: &'a Foreign, mut record: Record) -> Vec<(Verdict, &'a Group)> {
     record.work.steps = u64::MAX;
     let metrics = foreign.groups.iter().flat_map(|g| &g.metrics);
-    let zero = |unit: &str| Measured { value: Some(0.0), unit: unit.to_owned() };
-    record.metrics = metrics.map(|m| (m.name.to_owned(), zero(m.unit))).collect();
+    record.metrics = metrics.map(|m| measured((*m, 0.0))).collect();
     let verdicts = case.judge(&record).into_iter();
     let demanded = verdicts.filter(|v| v.kind == Kind::Truth && v.tolerance.is_some() && foreign.asks(&v.check));
     let of_group = |v: Verdict| {

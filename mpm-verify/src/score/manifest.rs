@@ -10,9 +10,9 @@ use std::fmt;
 use std::path::Path;
 
 /// Name of its file.
-pub const FILE: &str = "score.json";
+pub(super) const FILE: &str = "score.json";
 /// The version of the format that this program reads: `docs/reference/score.schema.json`.
-pub const SCHEMA: u32 = 1;
+pub(super) const SCHEMA: u32 = 1;
 /// Most characters of a text.
 const LONGEST: usize = 200;
 /// Most parameters, and most runs.
@@ -21,7 +21,7 @@ const MOST: usize = 100;
 /// A line of text of the user's.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
-pub struct Line(pub String);
+pub(crate) struct Line(pub(crate) String);
 
 impl TryFrom<String> for Line {
     type Error = String;
@@ -72,11 +72,9 @@ impl TryFrom<f64> for Positive {
     }
 }
 
-/// A code.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Code {
-    /// Its name.
     pub name: Line,
     /// Its version or commit.
     pub version: Option<Line>,
@@ -92,11 +90,8 @@ pub struct Cost {
     pub cpu_s: Option<Positive>,
     /// Time by the clock (s).
     pub wall_s: Option<Positive>,
-    /// Steps.
     pub steps: Option<u64>,
-    /// Threads.
     pub threads: Option<u32>,
-    /// The machine.
     pub machine: Option<Line>,
 }
 
@@ -146,14 +141,12 @@ fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>
 pub struct Manifest {
     /// [`SCHEMA`].
     pub schema: u32,
-    /// The code.
     pub code: Code,
     /// Its scheme, in its own words.
     pub scheme: Line,
     /// Its functions, where a case asks for them; quadratic splines by default.
     #[serde(default = "bspline2")]
     pub basis: BasisName,
-    /// The case.
     pub case: Line,
     /// The level: the size of its cells.
     pub level: Line,

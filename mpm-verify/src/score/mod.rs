@@ -7,7 +7,7 @@ mod columns;
 pub mod export;
 pub mod gate;
 mod legacy;
-pub mod manifest;
+mod manifest;
 mod vtk;
 mod vtu;
 
@@ -18,7 +18,8 @@ use crate::files::{TABLE, read as read_file, require_inside};
 use crate::foreign::{Asked, Foreign, Gap, Given, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
-use crate::record::{Discretisation, Measured, Record};
+use crate::problem::measured;
+use crate::record::{Discretisation, Record};
 use crate::spec::RunSpec;
 use crate::study::convergence::convergence;
 use crate::study::summary::{CaseStudy, Summary};
@@ -33,12 +34,11 @@ use std::path::{Path, PathBuf};
 pub struct Scores {
     /// The case.
     pub case: &'static Case,
-    /// The code.
-    pub code: String,
+    pub(crate) code: String,
     /// The runs.
     pub runs: Vec<Scored>,
     /// Names of runs of one scheme, basis and `repeat`, with verdicts on them together and observed orders.
-    pub together: Vec<(String, CaseStudy)>,
+    pub(crate) together: Vec<(String, CaseStudy)>,
 }
 
 /// Verdicts on a run, or on runs together: their name, and whether they are together.
@@ -115,7 +115,7 @@ fn together(case: &Case, runs: &[&Scored]) -> CaseStudy {
 /// A run of another code, judged.
 pub struct Scored {
     /// Manifest of the result.
-    pub manifest: Manifest,
+    pub(crate) manifest: Manifest,
     /// The case.
     pub case: &'static Case,
     /// The record, as of a run of the scheme as which it is judged.
@@ -123,7 +123,7 @@ pub struct Scored {
     /// Columns that the case asks for and that are not there.
     pub missing: Vec<Asked>,
     /// Columns that are there and that the case knows nothing of.
-    pub unknown: Vec<String>,
+    pub(crate) unknown: Vec<String>,
     /// Metrics that the rows leave open.
     gaps: Vec<(Metric, Gap)>,
 }
@@ -170,9 +170,7 @@ impl Scored {
                     // What should have been measured and was not is no number, which no check passes.
                     let own = values.remove(metric.name);
                     let own = gaps.iter().filter(|(of, _)| of == metric).fold(own, |own, (_, gap)| gap.value(own));
-                    let value = own.filter(|v| v.is_finite());
-                    let unit = metric.unit.to_owned();
-                    record.metrics.insert(metric.name.to_owned(), Measured { value, unit });
+                    record.metrics.extend([measured((*metric, own.unwrap_or(f64::NAN)))]);
                 }
             }
         }
@@ -208,7 +206,7 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
                 let known = foreign.columns();
                 let head = |name: &str| known.iter().find(|a| a.part == part && a.name == name).map(Asked::header);
                 let column = |(name, values): (&str, &[f64])| (head(name).unwrap_or(name.to_owned()), values.to_vec());
-                Table::of_columns(table.iter().map(column).collect())
+                Table::of_columns(table.iter().map(column))
             }
             _ => {
                 let allowed = match part {

@@ -8,7 +8,9 @@ mod together;
 use super::*;
 use crate::cases::find_scored;
 use crate::error::Error;
+use crate::record::fixture::spec;
 use crate::run::vtu::write_vtu;
+use crate::scheme::BasisName;
 use serde_json::{Value, json};
 use std::fs;
 
@@ -25,12 +27,7 @@ impl Answer {
     fn exported(case: &str, level: &str, set: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let (case, foreign) = find_scored(case).unwrap();
-        let spec = RunSpec {
-            scheme: (foreign.judged_as)(crate::scheme::BasisName::Bspline2),
-            level: find_level(case, level).unwrap(),
-            set: set.iter().map(|s| (*s).to_owned()).collect(),
-            perturbed: false,
-        };
+        let spec = spec((foreign.judged_as)(BasisName::Bspline2), find_level(case, level).unwrap(), set);
         let files = export::export(case, foreign, &spec, &folder.path().join("out")).unwrap();
         Self { folder, files }
     }
@@ -54,14 +51,32 @@ impl Answer {
         serde_json::from_str(&self.text(name)).unwrap()
     }
 
-    fn say(&self, key: &str, value: Value) {
+    /// Changes the manifest.
+    fn edit(&self, change: impl FnOnce(&mut Value)) {
         let mut manifest = self.json(FILE);
-        manifest[key] = value;
+        change(&mut manifest);
         fs::write(self.path(FILE), manifest.to_string()).unwrap();
+    }
+
+    fn say(&self, key: &str, value: Value) {
+        self.edit(|manifest| manifest[key] = value);
+    }
+
+    /// Makes the manifest one of several runs.
+    fn list(&self, runs: impl IntoIterator<Item = Value>) {
+        self.edit(|manifest| {
+            let own = ["schema", "code", "case", "scheme", "parameters"];
+            manifest.as_object_mut().unwrap().retain(|key, _| own.contains(&&**key));
+            manifest["runs"] = runs.into_iter().collect();
+        });
     }
 
     fn scores(&self) -> Result<Scores, Error> {
         Scores::read(&self.folder.path().join("out"))
+    }
+
+    fn refusal(&self) -> String {
+        self.scores().map(|_| ()).unwrap_err().to_string()
     }
 
     /// The only run.
@@ -78,10 +93,9 @@ impl Answer {
                 (true, Some(change)) => values.iter().map(|v| change(*v)).collect(),
                 (true, None) => return None,
             };
-            Some((name.to_owned(), values))
+            Some((name, values))
         });
-        let changed = Table::of_columns(columns.collect());
-        changed.write(&self.path("series.csv")).unwrap();
+        Table::of_columns(columns).write(&self.path("series.csv")).unwrap();
     }
 }
 
@@ -155,8 +169,7 @@ fn particles_may_be_a_grid_of_vtk_and_a_series_may_not() {
     assert!(scored.missing.iter().all(|a| a.part == Part::Series) && !scored.missing.is_empty());
     let refused = |key: &str, value: Value| {
         result.say(key, value);
-        let refused = result.score().map(|_| ()).unwrap_err();
-        refused.to_string()
+        result.refusal()
     };
     let said = refused("series", json!("particles.vtu"));
     assert!(said.contains("series \"particles.vtu\"; allowed: a .csv file"), "{said}");
@@ -187,7 +200,7 @@ fn what_a_manifest_names_is_refused_by_its_key() {
     ] {
         let result = Answer::of_column();
         result.say(key, value);
-        let said = result.score().map(|_| ()).unwrap_err().to_string();
+        let said = result.refusal();
         assert!(said.contains(named), "{said}");
     }
     // A table that the case does not ask for is ignored.
@@ -256,12 +269,7 @@ fn a_form_is_not_overwritten() {
     let result = Answer::of_column();
     let before = result.text(FILE);
     let (case, foreign) = find_scored("cook").unwrap();
-    let spec = RunSpec {
-        scheme: (foreign.judged_as)(crate::scheme::BasisName::Bspline2),
-        level: find_level(case, "h2").unwrap(),
-        set: Vec::new(),
-        perturbed: false,
-    };
+    let spec = spec((foreign.judged_as)(BasisName::Bspline2), find_level(case, "h2").unwrap(), &[]);
     let said = export::export(case, foreign, &spec, &result.path("")).unwrap_err().to_string();
     assert!(said.contains("score.json: it is there") && said.contains("allowed: a folder without it"), "{said}");
     assert_eq!((result.text(FILE), result.json("parameters.json")["case"].clone()), (before, json!("consolidation")));

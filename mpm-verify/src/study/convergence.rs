@@ -11,7 +11,6 @@ const LEAST_LEVELS: usize = 3;
 /// A quantity at one level, and what it cost.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Point {
-    /// Level.
     pub level: String,
     /// Parameters of the run that differ from the case's own.
     pub set: Vec<String>,
@@ -31,9 +30,7 @@ pub struct Convergence {
     /// Parameters changed from the case's own, the same at all levels.
     #[serde(default)]
     pub set: Vec<String>,
-    /// Scheme.
     pub scheme: Scheme,
-    /// The metric.
     pub metric: String,
     /// Whether it is an error, whose exact value is zero.
     pub is_error: bool,
@@ -141,17 +138,15 @@ fn study(set: &[String], scheme: Scheme, quantity: Quantity, points: Vec<Point>)
 mod tests {
     use super::*;
     use crate::cases;
-    use crate::record::Measured;
-    use crate::record::fixture::record;
+    use crate::record::fixture::{changed, record};
     use crate::scheme::RemedyName;
 
     /// A run whose errors are those of second order.
     fn run(level: &str, h: f64, set: &[&str]) -> Record {
         let mut run = record(level, Vec::new());
-        run.set = set.iter().map(|s| (*s).to_owned()).collect();
+        run.set = changed(set);
         run.discretisation.h = h;
-        let (value, unit) = (Some(h * h), "-".to_owned());
-        run.metrics.insert("fem_edge_mean_error".to_owned(), Measured { value, unit });
+        run.measure(&[("fem_edge_mean_error", h * h)]);
         run
     }
 
@@ -185,8 +180,7 @@ mod tests {
         let sets: [&[&str]; 3] = [&[], &[], &["cfl=0.2"]];
         let mut records: Vec<Record> = LEVELS.iter().zip(sets).map(|((name, h), set)| run(name, *h, set)).collect();
         for record in &mut records {
-            let error = record.metrics["fem_edge_mean_error"].clone();
-            record.metrics.insert(metric.to_owned(), error);
+            record.measure(&[(metric, record.value("fem_edge_mean_error"))]);
         }
         let entries = convergence(cases::find(case).unwrap(), &records);
         let own = entries.iter().filter(|c| c.metric == metric);

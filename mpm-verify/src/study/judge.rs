@@ -83,7 +83,6 @@ pub fn outcome_of<'a>(verdicts: impl Iterator<Item = &'a Verdict> + Clone) -> Ou
     }
 }
 
-/// The outcome of a run.
 pub(crate) fn outcome_of_run(record: &Record) -> Outcome {
     if record.broke_down() { Outcome::Failed } else { outcome_of(record.verdicts.iter()) }
 }

@@ -1,13 +1,13 @@
 //! Many runs: what is planned, how runs are made side by side, how their records are gathered and judged.
 
 pub mod complete;
-pub mod convergence;
+pub(crate) mod convergence;
 pub mod found;
 pub mod gather;
 pub mod judge;
 pub mod plan;
 pub mod schedule;
-pub mod summary;
+pub(crate) mod summary;
 
 use crate::case::{Case, Tier, find_level};
 use crate::error::{Error, ExitCode};

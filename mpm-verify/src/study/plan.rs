@@ -49,16 +49,13 @@ impl fmt::Display for Shard {
 /// A run of a plan.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlannedRun {
-    /// Case.
-    pub case: String,
-    /// Scheme.
-    pub scheme: Scheme,
-    /// Level.
-    pub level: String,
+    pub(crate) case: String,
+    pub(crate) scheme: Scheme,
+    pub(crate) level: String,
     /// Parameters changed from the defaults, as `name=value`.
-    pub set: Vec<String>,
+    pub(crate) set: Vec<String>,
     /// Index of the shard that makes it.
-    pub shard: usize,
+    pub(crate) shard: usize,
 }
 
 impl PlannedRun {
@@ -98,7 +95,7 @@ pub(crate) fn resolve_record(r: &Record) -> Result<(&'static Case, RunSpec), Err
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// Version of this format.
-    pub schema: u32,
+    pub(crate) schema: u32,
     /// Tier.
     pub tier: String,
     /// The share of this folder.
@@ -183,10 +180,7 @@ impl Plan {
     }
 
     /// Writes the plan into its folder.
-    ///
-    /// # Errors
-    /// The file can't be written.
-    pub fn write(&self, folder: &Path) -> Result<(), Error> {
+    pub(crate) fn write(&self, folder: &Path) -> Result<(), Error> {
         write_json(&folder.join(FILE), self)
     }
 

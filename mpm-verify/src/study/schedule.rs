@@ -77,12 +77,11 @@ pub fn require_memory(plan: &Plan, memory: f64, workers: usize) -> Result<(), Er
 
 /// A run to be made in a folder.
 pub struct Task {
-    /// The case.
-    pub case: &'static Case,
+    pub(crate) case: &'static Case,
     /// Run of the case.
-    pub spec: RunSpec,
+    pub(crate) spec: RunSpec,
     /// Where its outputs go.
-    pub folder: PathBuf,
+    pub(crate) folder: PathBuf,
 }
 
 impl Task {

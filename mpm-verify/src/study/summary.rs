@@ -7,12 +7,11 @@ use crate::gallery::Picture;
 use crate::night::Night;
 
 /// Version of the summary's format.
-pub const SCHEMA: u32 = 4;
+pub(crate) const SCHEMA: u32 = 4;
 
 /// The runs of one case and what is said of them together.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct CaseStudy {
-    /// Case.
     pub case: String,
     /// Records, in the order of the plan.
     pub records: Vec<Record>,
@@ -47,7 +46,6 @@ impl CaseStudy {
 /// Counts over all runs and verdicts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Counts {
-    /// Runs.
     pub runs: usize,
     /// Runs that broke down and were not known to.
     pub broke_down: usize,
@@ -124,11 +122,8 @@ impl fmt::Display for Counts {
 pub struct Summary {
     /// Version of this format.
     pub schema: u32,
-    /// Tier.
     pub tier: String,
-    /// Counts.
     pub counts: Counts,
-    /// Cases.
     pub cases: Vec<CaseStudy>,
 }
 

@@ -2,6 +2,7 @@
 
 use super::edge::{Edge, extremes};
 use super::*;
+use crate::cases::build::DENSITY;
 use mpm_core::implicit::{Serendipity, Settings};
 use mpm_core::material::Hypoelastic;
 use mpm_solvers::implicit;
@@ -14,8 +15,6 @@ const ROOM: (f64, f64, f64) = (0.2, 0.9, 0.2);
 /// Allowed weight over Young's modulus (1/m) in units of 1/(1 + ν): at the greatest the shear w L²/(2 G) of the beam alone
 /// moves the tip by the room below, and at the least the rounding of stresses is a percent of the loads.
 const WEIGHT_OVER_MODULUS: RangeInclusive<f64> = 1e-9..=ROOM.1 / (LENGTH * LENGTH);
-/// Density (kg/m³) of the weight; nothing moves.
-const DENSITY: f64 = 1000.0;
 
 /// Coordinates (m) of `count` particles along an axis, which stand for `spacing` (m) each.
 fn along(count: usize, spacing: f64, gauss: bool) -> Vec<f64> {

@@ -370,7 +370,7 @@ impl Problem<2> for Membrane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::{ParameterSet, Parameters};
+    use crate::record::fixture::setup;
 
     #[test]
     fn the_papers_particle_counts_are_met_exactly() {
@@ -380,11 +380,9 @@ mod tests {
     #[test]
     fn the_edge_load_has_its_resultant_on_the_side() {
         for (name, arm) in [("edge", 48.0), ("column", 47.75)] {
-            let set = vec![format!("load_at={name}")];
-            let parameters = Parameters::new(&Cook::list(), &set).unwrap();
-            let level = Level { name: "h1", h: 1.0 };
-            let spec = RunSpec { scheme: Scheme::flip(Gimp, FbarConsistent), level, set, perturbed: false };
-            let particles = Setup::<Cook>::of_spec(&spec, &parameters).unwrap().loaded_particles().unwrap();
+            let (level, set) = (Level { name: "h1", h: 1.0 }, format!("load_at={name}"));
+            let cook: Setup<Cook> = setup(Scheme::flip(Gimp, FbarConsistent), level, &[&set]);
+            let particles = cook.loaded_particles().unwrap();
             let force: f64 = particles.external_force.iter().map(|f| f[1]).sum();
             let moment: f64 = particles.external_force.iter().zip(&particles.reference).map(|(f, x)| f[1] * x[0]).sum();
             assert!((force - 1.0).abs() < 1e-12);

@@ -1,6 +1,7 @@
 //! Scene and observations of the lattice: a row for every step that is tried.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use crate::cases::noise::noise;
 use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
@@ -10,9 +11,6 @@ use mpm_solvers::solver;
 /// Cells of a period, or of the body where it has a free end; cells beside it there.
 pub(super) const PERIOD: usize = 6;
 const ROOM: usize = 3;
-/// Young's modulus (Pa) and density (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Least and greatest CFL number of a trial, and how many there are: each halves the range of the logarithm.
 const LEAST: f64 = 1e-3;
 const MOST: f64 = 1.0;

@@ -143,18 +143,7 @@ fn plan() -> Plan {
     let others: Vec<Scheme> = all.iter().filter(|s| !finest.contains(s)).copied().collect();
     let three = flip(&[none, FbarRecursive, FbarConsistent]);
     let make_energy = pairs(&[Gimp], &[FbarTotal, FbarRate]);
-    let studies = [
-        "cfl=0.15",
-        "start=gravity-stage",
-        "pic_rate=0.1",
-        "pic_rate=1",
-        "pic_rate=10",
-        "pic_rate=100",
-        "wall_contact=sticky",
-        "seed=1",
-        "seed=2",
-        "seed=3",
-    ];
+    let rates = [0.1, 1.0, 10.0, 100.0].map(|rate| format!("pic_rate={rate}"));
     Plan::of(LEVELS.map(|(name, h)| Level { name, h }))
         .runs(Pr, "h0.5 h0.25", &three, SHORT)
         .runs(Pr, "h0.5", &make_energy, SHORT)
@@ -163,7 +152,10 @@ fn plan() -> Plan {
         .runs(Nightly, "h0.5 h0.25 h0.125", &all, LADDER)
         .runs(Nightly, "h0.0625", &finest, LADDER)
         .runs(Nightly, "h0.5 h0.25 h0.125", &ours, "cfl=0.3 ppc_per_direction=3")
-        .each(Nightly, "h0.25", &ours, studies)
+        .each(Nightly, "h0.25", &ours, ["cfl=0.15", "start=gravity-stage"])
+        .each(Nightly, "h0.25", &ours, rates)
+        .runs(Nightly, "h0.25", &ours, "wall_contact=sticky")
+        .each(Nightly, "h0.25", &ours, ["seed=1", "seed=2", "seed=3"])
         .runs(Long, "h0.0625", &others, LADDER)
 }
 

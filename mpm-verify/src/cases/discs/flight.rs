@@ -62,20 +62,13 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::exact::lattice::support;
-    use crate::parameter::{ParameterSet, Parameters};
+    use crate::record::fixture::setup;
     use crate::scheme::{BasisName, RemedyName, Scheme};
     use crate::spec::Level;
-    use crate::spec::RunSpec;
 
     fn met(basis: BasisName, h: f64, offset: f64) -> Option<f64> {
-        let spec = RunSpec {
-            scheme: Scheme::flip(basis, RemedyName::None),
-            level: Level { name: "", h },
-            set: Vec::new(),
-            perturbed: false,
-        };
-        let values = Parameters::new(&Discs::list(), &[format!("offset={offset}")]).unwrap();
-        until_met(&Setup::of_spec(&spec, &values).unwrap(), 95.0)
+        let offset = format!("offset={offset}");
+        until_met(&setup(Scheme::flip(basis, RemedyName::None), Level { name: "", h }, &[&offset]), 95.0)
     }
 
     /// A function that sees both has a support of each within √2 of it, along the diagonal.

@@ -2,14 +2,13 @@
 
 use super::flight::{CENTRES, RADIUS, until_met};
 use super::*;
+use crate::cases::build::DENSITY;
 
 /// The centre of symmetry (m).
 const MIDDLE: f64 = 0.5;
 /// Side of the square of cells (m), and room around it.
 const SIDE: f64 = 1.0;
 const ROOM: f64 = 0.2;
-/// Density (kg/m³).
-const DENSITY: f64 = 1000.0;
 /// The paper's cell size (m) and time step (s), its duration (s) and speed (m/s).
 const CELL: f64 = 0.05;
 const STEP: f64 = 0.0025;

@@ -1,13 +1,11 @@
 //! Scene of the block, and its observations step by step.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 
 /// Side of the block, and its gap over the reach of the barrier at the start (m).
 const SIDE: f64 = 0.5;
 const CLEAR: f64 = 0.02;
-/// Young's modulus (Pa) and density (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Distance at which the barrier begins, in cells.
 const REACH: f64 = 0.25;
 /// Duration of the run, in times in which waves cross the block and come back, beside the time of its fall and as much to

@@ -251,15 +251,8 @@ fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fi
         size: shown.spacing,
         outline: OUTLINE.to_vec(),
     };
-    FieldFigure {
-        title,
-        panels: panels.iter().map(panel).collect(),
-        columns,
-        range: field.range,
-        label: field.label.to_owned(),
-        window: Some(WINDOW),
-        ..FieldFigure::default()
-    }
+    let panels = panels.iter().map(panel).collect();
+    Fields::new(panels, field.label, field.range).titled(title).columns(columns).within(WINDOW).0
 }
 
 fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> SolidFigure {

@@ -1,6 +1,7 @@
 //! Scene and observations of the column, step by step; the time is the share of the load.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use crate::exact::uniaxial::{Body as Uniaxial, Column as Exact};
 use mpm_core::implicit;
 use std::f64::consts::E;
@@ -8,9 +9,6 @@ use std::f64::consts::E;
 /// Height of the column (m), and cells across it.
 const HEIGHT: f64 = 1.0;
 const ACROSS: usize = 4;
-/// Young's modulus (Pa) and density (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Place among the constraints of what holds the upper end.
 const UPPER_END: usize = 2;
 /// Distance at which the barrier begins, in cells, and the share of it at which it carries the weight.

@@ -2,11 +2,10 @@
 
 use super::jump::Jump;
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 
-/// Length (m), Young's modulus (Pa) and density (kg/m³) of the bar.
+/// Length (m) of the bar.
 const LENGTH: f64 = 1.0;
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Share of the bar that the front crosses, and shares of its way between which the state is taken.
 pub(super) const WAY: f64 = 0.7;
 pub(super) const BEHIND: [f64; 2] = [0.1, 0.8];

@@ -230,13 +230,10 @@ impl Problem<2> for Trials {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::{ParameterSet, Parameters};
+    use crate::record::fixture::setup;
 
     fn slope(set: &[&str]) -> Setup<Stability> {
-        let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-        let values = Parameters::new(&Stability::list(), &set).unwrap();
-        let spec = RunSpec { scheme: Scheme::flip(Gimp, RemedyName::None), level: LEVELS[0], set, perturbed: false };
-        Setup::of_spec(&spec, &values).unwrap()
+        setup(Scheme::flip(Gimp, RemedyName::None), LEVELS[0], set)
     }
 
     /// Factors tried until the answer is known, of a slope that fails above `limit`, and the metrics.

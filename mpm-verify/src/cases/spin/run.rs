@@ -1,12 +1,11 @@
 //! Scene and observations of the disc, twenty times a turn.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use nalgebra::Vector2;
 
-/// Radius (m), density (kg/m³), Young's modulus (Pa).
+/// Radius (m).
 pub(super) const RADIUS: f64 = 1.0;
-const DENSITY: f64 = 1000.0;
-const YOUNG_MODULUS: f64 = 1e6;
 /// Cells of room on every side.
 const ROOM: f64 = 2.0;
 /// Rows in a turn.
@@ -164,14 +163,10 @@ fn observe(run: &mut dyn Simulation<2>) -> Row {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameter::{ParameterSet, Parameters};
+    use crate::record::fixture::setup;
 
     fn spin(basis: BasisName, set: &str) -> Result<Spin, Error> {
-        let set = vec![set.to_owned()];
-        let values = Parameters::new(&Disc::list(), &set)?;
-        let scheme = Scheme::flip(basis, RemedyName::None);
-        let spec = RunSpec { scheme, level: LEVELS[0], set, perturbed: false };
-        Spin::new(Setup::of_spec(&spec, &values)?)
+        Spin::new(setup(Scheme::flip(basis, RemedyName::None), LEVELS[0], &[set]))
     }
 
     #[test]

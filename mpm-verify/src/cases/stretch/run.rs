@@ -1,15 +1,13 @@
 //! Scene, observations and predictions of the body.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use crate::exact::stretched_lattice::Lattice;
 use mpm_core::stage::Constraint;
 use mpm_core::{Frame, Memoryless};
 
 /// Cells of the body beside the free part, always.
 const HELD: usize = 2;
-/// Young's modulus (Pa) and density of the undeformed body (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// The share of its exact value below which the mean stress of the free part says that it has torn.
 const TORN: f64 = 0.5;
 /// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.

@@ -1,11 +1,9 @@
 //! Scene and observations of a free beam that swings in its first mode, half of it by symmetry.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use crate::exact::free_beam::{Beam, Mode, stiffness};
 
-/// Young's modulus (Pa) and density (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Deflection of the middle (m), small enough for the linear beam.
 const DEFLECTION: f64 = 1e-5;
 /// Periods of a run, and rows in one of them.

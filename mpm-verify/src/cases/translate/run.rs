@@ -1,14 +1,12 @@
 //! Scene and observations of the body, twice in a cell.
 
 use super::*;
+use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 use crate::exact::lattice::{force, symbol, transform};
 
 /// Cells of a period along the motion and across it.
 pub(super) const PERIOD: usize = 8;
 const ACROSS: usize = 4;
-/// Young's modulus (Pa) and density of the undeformed body (kg/m³).
-const YOUNG_MODULUS: f64 = 1e6;
-const DENSITY: f64 = 1000.0;
 /// Waves of the lattice whose forces are summed.
 const WAVES: i32 = 3;
 /// Rows in a cell.

@@ -1,7 +1,7 @@
 use super::*;
 use crate::case::Tier;
+use crate::record::BREAKS_DOWN;
 use crate::record::fixture::record;
-use crate::record::{BREAKS_DOWN, Failure, Measured, Status};
 use crate::study::judge::{judge, judged_run};
 use crate::verdict::{Kind, Outcome, Verdict};
 
@@ -49,22 +49,13 @@ fn a_cell_tells_the_worst_of_its_runs() {
     };
     assert_eq!(add(right(), "✓ 1/2"), "1 right, 1 not judged");
     let mut noisy = right();
-    let ratio = |value| Measured { value: Some(value), unit: "-".to_owned() };
-    noisy.metrics.insert("checkerboard_ratio".to_owned(), ratio(0.70));
+    noisy.measure(&[("checkerboard_ratio", 0.70)]);
     add(noisy.clone(), "✓ 2/3");
     add(record("h1", vec![verdict("locks", Kind::KnownLimit, Outcome::WrongAsKnown)]), "≈ 1/4");
-    noisy.metrics.insert("checkerboard_ratio".to_owned(), ratio(0.71));
+    noisy.measure(&[("checkerboard_ratio", 0.71)]);
     add(noisy, "∿ 1/5");
     let mut broken = record("h1", vec![verdict(BREAKS_DOWN, Kind::KnownLimit, Outcome::WrongAsKnown)]);
-    broken.status = Status::Failed;
-    broken.error = Some(Failure {
-        kind: "off-grid".to_owned(),
-        time: 1.0,
-        step: 1,
-        particle: 0,
-        value: None,
-        message: String::new(),
-    });
+    broken.break_down("off-grid", 1.0, "");
     let words = add(broken.clone(), "↯a 1/6");
     assert!(words.ends_with("1 breaks down as known, 1 not judged, off-grid"), "{words}");
     broken.verdicts.clear();

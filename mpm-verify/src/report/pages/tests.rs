@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::files::write_whole;
-use crate::record::Measured;
+use crate::problem::measured;
 use crate::report::fixture::{NASTY, summary};
 use quick_xml::escape::unescape;
 use quick_xml::events::Event;
@@ -96,8 +96,7 @@ fn pages_are_small() {
             (run.case, run.scheme, run.set) = (case.name.to_owned(), spec.scheme, spec.set);
             run.discretisation.h = spec.level.h;
             for m in &case.metrics {
-                let (value, unit) = (Some(-1.234_5e-5), m.unit.to_owned());
-                run.metrics.insert(m.name.to_owned(), Measured { value, unit });
+                run.metrics.extend([measured((*m, -1.234_5e-5))]);
             }
             run
         });

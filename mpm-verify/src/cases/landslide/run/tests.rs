@@ -5,10 +5,7 @@ use crate::problem::Driver;
 use mpm_core::Memory;
 
 fn setup(level: Level, set: &[&str]) -> Setup<Landslide> {
-    let set: Vec<String> = set.iter().map(|s| (*s).to_owned()).collect();
-    let values = Parameters::new(&Landslide::list(), &set).unwrap();
-    let spec = RunSpec { scheme: Scheme::flip(Gimp, FbarConsistent), level, set, perturbed: false };
-    Setup::of_spec(&spec, &values).unwrap()
+    crate::record::fixture::setup(Scheme::flip(Gimp, FbarConsistent), level, set)
 }
 
 fn level(name: &str) -> Level {

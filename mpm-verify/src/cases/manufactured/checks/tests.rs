@@ -1,21 +1,19 @@
 use super::*;
 use crate::cases::manufactured::metrics::DISPLACEMENT_RATIO;
-use crate::record::Measured;
-use crate::record::fixture::record;
+use crate::problem::measured;
+use crate::record::fixture::{changed, record};
 use crate::verdict::Verdict;
 
 /// A run of a scheme at cell size 1/n with a value of a metric and some changed parameters.
 fn run(scheme: Scheme, n: f64, (metric, value): (Metric, f64), set: &[&str]) -> Record {
     let known = [POISSON_RATIO, crate::cases::parameters::LUMPED];
     let mut r = record(&format!("n{n}"), Vec::new());
-    r.set = set.iter().map(|s| (*s).to_owned()).collect();
+    r.set = changed(set);
     r.scheme = scheme;
     r.discretisation.h = 1.0 / n;
     let own: Vec<String> = r.set.iter().filter(|s| !s.starts_with("cfl=")).cloned().collect();
     r.parameters = Parameters::new(&known, &own).unwrap();
-    let value = value.is_finite().then_some(value);
-    let unit = metric.unit.to_owned();
-    r.metrics.insert(metric.into(), Measured { value, unit });
+    r.metrics.extend([measured((metric, value))]);
     r
 }
 
