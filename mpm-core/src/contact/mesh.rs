@@ -30,6 +30,8 @@ const PARTS: usize = 8;
 /// A triangle with less than this share of the square over its longest side has no area.
 const FLAT: f64 = 1e-7;
 
+const FACET: &str = "facet of a mesh, counted from 0,";
+
 #[derive(Debug, Clone, PartialEq)]
 struct Facet<const D: usize> {
     corners: [SVector<f64, D>; D],
@@ -64,15 +66,15 @@ impl<const D: usize> Mesh<D> {
             let sides: [f64; D] = std::array::from_fn(|k| (corners[(k + 1) % D] - corners[k]).norm());
             let normal = across(&corners);
             let least = FLAT * sides.iter().fold(0.0, |most: f64, side| most.max(*side)).powi(D as i32 - 1);
-            require(normal.norm() > least, "facet of a mesh", k as f64, "one with an area, counted from 0")?;
+            require(normal.norm() > least, FACET, k as f64, "one with an area")?;
             let corner = corners.map(|x| {
                 let count = numbers.len();
                 *numbers.entry(key(&x)).or_insert(count)
             });
             for (part, name) in (1..1 << D).map(|part| (part, name(&corner, part))) {
-                let unlike = "one whose edges it shares with one facet of the same outside each, counted from 0";
+                let unlike = "one with at most one other at an edge, which has its outside on the same side";
                 let own = part.count_ones() as usize != D || !sums.contains_key(&name);
-                require(own, "facet of a mesh", k as f64, unlike)?;
+                require(own, FACET, k as f64, unlike)?;
                 *sums.entry(name).or_insert_with(SVector::zeros) += normal.normalize() * angle(&corners, part);
                 // An edge that both its facets run through in one direction has their outsides on different sides.
                 if part.count_ones() as usize == D - 1 {
@@ -82,7 +84,7 @@ impl<const D: usize> Mesh<D> {
                     let met: &mut Vec<bool> = rims.entry(name).or_default();
                     met.push(turns == ordered);
                     let fits = met.len() == 1 || met.len() == 2 && met[0] != met[1];
-                    require(fits, "facet of a mesh", k as f64, unlike)?;
+                    require(fits, FACET, k as f64, unlike)?;
                 }
             }
             made.push((corners, corner));
