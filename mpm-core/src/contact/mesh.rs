@@ -29,6 +29,8 @@ type Part = usize;
 const PARTS: usize = 8;
 /// A triangle with less than this share of the square over its longest side has no area.
 const FLAT: f64 = 1e-7;
+/// Share of a side by which a point is beyond a facet and not, by rounding, on its edge.
+const BEYOND: f64 = 1e-12;
 
 const FACET: &str = "facet of a mesh, counted from 0,";
 
@@ -203,7 +205,7 @@ impl<const D: usize> Facet<D> {
         };
         let weights = [1.0 - shares[0] - shares[1], shares[0], shares[1]];
         let corners = (0..D).filter(|k| part >> k & 1 == 1);
-        let beyond = corners.zip(weights).filter(|(_, weight)| *weight < 0.0);
+        let beyond = corners.zip(weights).filter(|(_, weight)| *weight < -BEYOND);
         let edges = beyond.map(|(k, _)| self.nearest(x, part & !(1 << k)));
         edges.min_by(|one, other| one.0.total_cmp(&other.0)).unwrap_or_else(|| {
             let point = self.corners[first] + sides[0] * shares[0] + sides[1] * shares[1];

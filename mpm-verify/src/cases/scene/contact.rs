@@ -76,7 +76,7 @@ pub(super) fn contact<const D: usize>(
         }
     };
     if let Some(velocity) = &form.velocity_m_s {
-        face = face.moving(std::array::from_fn(|a| velocity[a].0), amplitude)?;
+        face = face.moving(std::array::from_fn(|a| velocity.get(a).map_or(0.0, |v| v.0)), amplitude)?;
     }
     let contact = RigidContact::new(face, Barrier::new(form.stiffness_n_m.0, form.reach_m.0)?);
     Ok(match form.friction {
