@@ -10,6 +10,7 @@ mod moves;
 mod pairs;
 mod random;
 mod soil;
+mod surfaces;
 mod told;
 mod weights;
 
