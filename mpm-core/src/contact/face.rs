@@ -1,20 +1,36 @@
 //! Face of a rigid body with a prescribed motion.
 
+use super::mesh::{Gap, Mesh};
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::particles::Particles;
 use crate::stage::{Amplitude, End};
+use nalgebra::{SMatrix, SVector};
+use std::sync::Arc;
 
-/// The plane face of a rigid body, which may be limited across its normal (a footing) and may move.
+/// The face of a rigid body, which may move: a plane, which may be limited across its normal (a footing), or a surface
+/// of facets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidFace<const D: usize> {
+    shape: Shape<D>,
+    velocity: [f64; D],
+    amplitude: Amplitude,
+}
+
+/// Where a face is at time zero.
+#[derive(Debug, Clone, PartialEq)]
+enum Shape<const D: usize> {
+    Plane(Plane<D>),
+    Mesh(Arc<Mesh<D>>),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Plane<const D: usize> {
     axis: usize,
     /// Sign of the outward normal along `axis`.
     sign: f64,
     position: f64,
     extent: [[f64; 2]; D],
-    velocity: [f64; D],
-    amplitude: Amplitude,
 }
 
 impl<const D: usize> RigidFace<D> {
@@ -30,21 +46,28 @@ impl<const D: usize> RigidFace<D> {
             End::Lo => 1.0,
             End::Hi => -1.0,
         };
-        Ok(Self {
-            axis,
-            sign,
-            position,
-            extent: [[f64::NEG_INFINITY, f64::INFINITY]; D],
-            velocity: [0.0; D],
-            amplitude: Amplitude::Rise(0.0),
-        })
+        let extent = [[f64::NEG_INFINITY, f64::INFINITY]; D];
+        Ok(Self::at_rest(Shape::Plane(Plane { axis, sign, position, extent })))
     }
 
-    /// Limits the face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
-    /// has no meaning. Particles beside the face do not feel it.
+    /// A rigid body at rest with the surface `mesh`.
     #[must_use]
-    pub fn within(self, extent: [[f64; 2]; D]) -> Self {
-        Self { extent, ..self }
+    pub fn mesh(mesh: Arc<Mesh<D>>) -> Self {
+        Self::at_rest(Shape::Mesh(mesh))
+    }
+
+    fn at_rest(shape: Shape<D>) -> Self {
+        Self { shape, velocity: [0.0; D], amplitude: Amplitude::Rise(0.0) }
+    }
+
+    /// Limits a plane face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
+    /// has no meaning. Particles beside the face do not feel it. A mesh ends where its facets end.
+    #[must_use]
+    pub fn within(mut self, extent: [[f64; 2]; D]) -> Self {
+        if let Shape::Plane(plane) = &mut self.shape {
+            plane.extent = extent;
+        }
+        self
     }
 
     /// Moves the face with `velocity` (m/s) times the `amplitude`.
@@ -58,42 +81,48 @@ impl<const D: usize> RigidFace<D> {
         Ok(Self { velocity, amplitude, ..self })
     }
 
-    /// Puts the face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
-    /// distance d̂ of a barrier it just touches. With no particle before it, it stays.
+    /// Puts a plane face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
+    /// distance d̂ of a barrier it just touches. With no particle before it, it stays, and so does a mesh.
     #[must_use]
-    pub fn touching(self, particles: &Particles<D>, gap: f64) -> Self {
+    pub fn touching(mut self, particles: &Particles<D>, gap: f64) -> Self {
         let gaps = particles.position.iter().filter_map(|x| self.gap(x));
         let nearest = gaps.fold(f64::INFINITY, f64::min);
-        if !nearest.is_finite() {
-            return self;
+        if let Shape::Plane(plane) = &mut self.shape
+            && nearest.is_finite()
+        {
+            plane.position += plane.sign * (nearest - gap);
         }
-        Self { position: self.position + self.sign * (nearest - gap), ..self }
+        self
     }
 
     /// The same face seen from `frame`.
     #[must_use]
     pub fn seen_from(&self, frame: &Frame<D>) -> Self {
-        let (axis, sign) = frame.axis(self.axis);
-        let mut on_face = [0.0; D];
-        on_face[self.axis] = self.position;
-        Self {
-            axis,
-            sign: sign * self.sign,
-            position: frame.place(&on_face)[axis],
-            extent: frame.extent(&self.extent),
-            velocity: frame.vector(&self.velocity, frame.scale(0, 1)),
-            amplitude: self.amplitude.clone(),
-        }
+        let shape = match &self.shape {
+            Shape::Plane(plane) => {
+                let (axis, sign) = frame.axis(plane.axis);
+                let mut on_face = [0.0; D];
+                on_face[plane.axis] = plane.position;
+                let position = frame.place(&on_face)[axis];
+                Shape::Plane(Plane { axis, sign: sign * plane.sign, position, extent: frame.extent(&plane.extent) })
+            }
+            Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.seen_from(frame))),
+        };
+        let velocity = frame.vector(&self.velocity, frame.scale(0, 1));
+        Self { shape, velocity, amplitude: self.amplitude.clone() }
     }
 
-    /// Axis of the normal.
-    pub fn axis(&self) -> usize {
-        self.axis
+    /// Whether its normal is one and the same everywhere.
+    pub fn is_plane(&self) -> bool {
+        matches!(self.shape, Shape::Plane(_))
     }
 
-    /// Component of the outward unit normal along [`Self::axis`].
-    pub fn sign(&self) -> f64 {
-        self.sign
+    /// An axis along which its normal has a part, of those that `which` names.
+    pub(crate) fn crosses(&self, which: impl Fn(usize) -> bool) -> Option<usize> {
+        (0..D).filter(|axis| which(*axis)).find(|axis| match &self.shape {
+            Shape::Plane(plane) => plane.axis == *axis,
+            Shape::Mesh(mesh) => mesh.crosses(*axis),
+        })
     }
 
     /// Displacement (m) since time zero: the exact integral of [`Self::velocity`].
@@ -111,14 +140,40 @@ impl<const D: usize> RigidFace<D> {
     /// Gap (m) between the face at time zero and what lies at `x` (m), less the face's displacement: negative
     /// inside the body, `None` beside the face.
     pub fn gap(&self, x: &[f64; D]) -> Option<f64> {
-        let mut ends = x.iter().zip(&self.extent).enumerate();
-        let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
-        before.then(|| self.sign * (x[self.axis] - self.position))
+        self.seen_at(x, f64::INFINITY).map(|gap| gap.size)
     }
 
-    /// Whether what lies at `x` (m), less the face's displacement, is in the body or within `distance` (m) of the face
-    /// along every axis.
+    /// The face at time zero as what lies at `x` (m), less the face's displacement, sees it: `None` beside the face, and
+    /// farther than `within` (m) from a mesh.
+    pub fn seen_at(&self, x: &[f64; D], within: f64) -> Option<Gap<D>> {
+        match &self.shape {
+            Shape::Plane(plane) => plane.gap(x),
+            Shape::Mesh(mesh) => mesh.gap(x, within),
+        }
+    }
+
+    /// Whether what lies at `x` (m), less the face's displacement, is within `distance` (m) of the face along every axis,
+    /// or farther inside a body with a plane face.
     pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
+        match &self.shape {
+            Shape::Plane(plane) => plane.is_near(x, distance),
+            Shape::Mesh(mesh) => mesh.is_near(x, distance),
+        }
+    }
+}
+
+impl<const D: usize> Plane<D> {
+    fn gap(&self, x: &[f64; D]) -> Option<Gap<D>> {
+        let mut ends = x.iter().zip(&self.extent).enumerate();
+        let before = ends.all(|(a, (x, [lo, hi]))| a == self.axis || (x >= lo && x <= hi));
+        before.then(|| Gap {
+            size: self.sign * (x[self.axis] - self.position),
+            normal: SVector::from_fn(|a, _| if a == self.axis { self.sign } else { 0.0 }),
+            bend: SMatrix::zeros(),
+        })
+    }
+
+    fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
         let mut ends = x.iter().zip(&self.extent).enumerate();
         ends.all(|(a, (x, [lo, hi]))| {
             if a == self.axis {

@@ -5,16 +5,19 @@
 mod barrier;
 mod face;
 mod friction;
+mod mesh;
 
 pub use barrier::Barrier;
 pub use face::RigidFace;
 pub use friction::Friction;
+pub use mesh::{Gap, Mesh};
 
 use crate::error::Fault;
 use crate::frame::Frame;
 use crate::memory::{Memory, MemoryError, Saved};
 use crate::monitor::Reaction;
 use crate::particles::Particles;
+use nalgebra::SVector;
 
 /// The contact of all particles with one rigid body.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,32 +153,29 @@ impl<const D: usize> RigidContact<D> {
     pub(crate) fn try_step(&mut self, time: f64, dt: f64, particles: &mut Particles<D>) -> Stiffest {
         let moved = self.face.displacement(time);
         let carried = difference(&moved, &self.face.displacement(time - dt));
-        let (axis, sign) = (self.face.axis(), self.face.sign());
+        let reach = self.barrier.distance();
         let mut stiffest = Stiffest::default();
         self.reaction.force = [0.0; 3];
         for &k in &self.near {
             let k = k as usize;
             let id = particles.id[k] as usize;
             let tried = self.tried.get_mut(id);
-            let gap = self.face.gap(&difference(&particles.position[k], &moved));
-            let Some(gap) = gap.filter(|&gap| gap < self.barrier.distance()) else {
+            let gap = self.face.seen_at(&difference(&particles.position[k], &moved), reach);
+            let Some(Gap { size, normal: n, .. }) = gap.filter(|gap| gap.size < reach) else {
                 tried.into_iter().for_each(|u| *u = [0.0; D]);
                 continue;
             };
-            let normal = self.barrier.force(gap);
-            let mut stiffness = self.barrier.stiffness(gap);
+            let normal = self.barrier.force(size);
+            let mut stiffness = self.barrier.stiffness(size);
             let mut force = [0.0; D];
             if let (Some(friction), Some(tried)) = (&self.friction, tried) {
-                *tried = self.stretch[id];
-                let slid = difference(&particles.increment[k], &carried);
-                for a in (0..D).filter(|&a| a != axis) {
-                    tried[a] += slid[a];
-                }
+                let slid = SVector::from(difference(&particles.increment[k], &carried));
+                *tried = along(SVector::from(self.stretch[id]) + slid, &n).into();
                 force = friction.force(tried, normal);
                 stiffness = stiffness.max(friction.stiffness());
             }
-            force[axis] = sign * normal;
             for a in 0..D {
+                force[a] += n[a] * normal;
                 particles.external_force[k][a] += force[a];
                 self.reaction.force[a] -= force[a];
             }
@@ -224,6 +224,11 @@ impl<const D: usize> Memory for RigidContact<D> {
         self.reaction = reaction;
         Ok(())
     }
+}
+
+/// The part of a vector across the normal `n`.
+pub(crate) fn along<const D: usize>(v: SVector<f64, D>, n: &SVector<f64, D>) -> SVector<f64, D> {
+    v - n * n.dot(&v)
 }
 
 fn difference<const D: usize>(a: &[f64; D], b: &[f64; D]) -> [f64; D] {

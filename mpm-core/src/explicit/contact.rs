@@ -17,11 +17,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
     pub(super) fn attach_contacts(&mut self) -> Result<(), Error> {
         let scene = &mut self.scene;
         for contact in &mut scene.contacts {
-            let axis = contact.face().axis();
-            require(!scene.grid.axes[axis].is_periodic(), "axis of a rigid face", axis as f64, "not periodic")?;
+            let periodic = contact.face().crosses(|axis| scene.grid.axes[axis].is_periodic());
+            require(periodic.is_none(), "axis of a rigid face", periodic.unwrap_or(0) as f64, "not periodic")?;
             contact.attach(scene.bodies.particles.len());
+            // All particles: later ones come from where they are near.
+            contact.find_near(0.0, f64::INFINITY, &scene.bodies.particles);
         }
-        Ok(())
+        self.keep_gaps_open(0.0)
     }
 
     /// Adds the contact forces to the external ones.

@@ -98,7 +98,6 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
         solver.attach_contacts()?;
         solver.declare_constraints(0.0)?;
         solver.sort();
-        solver.keep_gaps_open(0.0)?;
         Ok(solver)
     }
 

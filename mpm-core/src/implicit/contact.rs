@@ -1,12 +1,12 @@
 //! Contact with rigid bodies in a step: barrier and friction at a trial, their stiffness, and gaps that stay open.
 //!
 //! Both act at a particle's place, x + Σ w u, so that their force on a node is Σ w f and their stiffness Σ w w ∂f/∂x,
-//! of any form in the place; smooth faces have B′ and B″ along the normal. A stick starts from where the last step left
+//! of any form in the place; smooth faces have B′ along the normal n, B″ n ⊗ n, and −B′ times what n turns by. A stick starts from where the last step left
 //! it, however often a step is tried.
 
 use super::elements::Elements;
 use super::{Remedy, Solver};
-use crate::contact::{Barrier, Friction, RigidContact, RigidFace};
+use crate::contact::{Barrier, Friction, Gap, RigidContact, RigidFace, along};
 use crate::error::{Error, Fault, require};
 use crate::particles::Particles;
 use crate::scene::Scene;
@@ -61,43 +61,33 @@ impl<const D: usize> Obstacle<D> {
         self.carried.iter().any(|moved| *moved != 0.0)
     }
 
-    /// Gap (m) to what lies at `x` (m), if it lies before the face.
-    fn gap(&self, x: &SVector<f64, D>) -> Option<f64> {
-        self.face.gap(&(x - self.moved).into())
+    /// The face as what lies at `x` (m) sees it, if it lies before it.
+    fn gap(&self, x: &SVector<f64, D>) -> Option<Gap<D>> {
+        self.face.seen_at(&(x - self.moved).into(), f64::INFINITY)
     }
 
-    /// −B′ (N) and B″ (N/m) at a place.
-    fn normal(&self, x: &SVector<f64, D>) -> Result<Option<[f64; 2]>, Fault> {
+    /// The gap at a place where the barrier pushes.
+    fn touched(&self, x: &SVector<f64, D>) -> Result<Option<Gap<D>>, Fault> {
         match self.gap(x) {
-            Some(gap) if gap <= 0.0 => Err(Fault::GapClosed(gap)),
-            Some(gap) if gap < self.barrier.distance() => {
-                Ok(Some([self.barrier.force(gap), self.barrier.stiffness(gap)]))
-            }
-            _ => Ok(None),
+            Some(gap) if gap.size <= 0.0 => Err(Fault::GapClosed(gap.size)),
+            gap => Ok(gap.filter(|gap| gap.size < self.barrier.distance())),
         }
     }
 
     /// Adds to a push with the normal force `normal` (N) and stiffness `slope` (N/m) what the stick of the particle
     /// `id` does that has moved by `moved` (m) in the step.
-    fn rub(&self, push: &mut Push<D>, id: u32, moved: &SVector<f64, D>, [normal, slope]: [f64; 2]) {
+    fn rub(&self, push: &mut Push<D>, id: u32, moved: &SVector<f64, D>, gap: &Gap<D>, [normal, slope]: [f64; 2]) {
         let Some((friction, stick)) = self.friction.zip(self.sticks.get(id as usize)) else {
             return;
         };
-        let axis = self.face.axis();
-        let mut slid = moved - self.carried;
-        slid[axis] = 0.0;
-        push.stretch = (SVector::from(*stick) + slid).into();
+        let (n, pulled) = (gap.normal, SVector::from(*stick) + (moved - self.carried));
+        push.stretch = along(pulled, &n).into();
         let (resisting, by_normal) = friction.tangent(&push.stretch, normal);
         push.force += SVector::from(friction.force(&mut push.stretch, normal));
-        for column in (0..D).filter(|column| *column != axis) {
-            for row in (0..D).filter(|row| *row != axis) {
-                push.stiffness[(row, column)] += resisting[(row, column)];
-            }
-        }
-        // ∂N/∂x = −B″ n.
-        for row in (0..D).filter(|row| *row != axis) {
-            push.stiffness[(row, axis)] += by_normal[row] * slope * self.face.sign();
-        }
+        // ∂s/∂x of s = (I − n ⊗ n) pulled, and ∂N/∂x = −B″ n.
+        let turning = n * (gap.bend * pulled).transpose() + gap.bend * n.dot(&pulled);
+        let slope_of_stretch = SMatrix::identity() - n * n.transpose() - turning;
+        push.stiffness += resisting * slope_of_stretch + by_normal * slope * n.transpose();
     }
 }
 
@@ -113,18 +103,17 @@ pub(super) fn pushes<const D: usize>(
 ) -> Result<Vec<Push<D>>, (usize, Fault)> {
     let mut found = Vec::new();
     for (by, obstacle) in obstacles.iter().enumerate() {
-        let (axis, sign) = (obstacle.face.axis(), obstacle.face.sign());
         for (particle, x) in particles.position.iter().enumerate() {
             let moved = elements.value(particle, u);
-            let normal = obstacle.normal(&(SVector::from(*x) + moved));
-            let Some([size, slope]) = normal.map_err(|fault| (particle, fault))? else {
+            let touched = obstacle.touched(&(SVector::from(*x) + moved));
+            let Some(gap) = touched.map_err(|fault| (particle, fault))? else {
                 continue;
             };
-            let mut push =
-                Push { particle, by, force: SVector::zeros(), stiffness: SMatrix::zeros(), stretch: [0.0; D] };
-            push.force[axis] = sign * size;
-            push.stiffness[(axis, axis)] = slope;
-            obstacle.rub(&mut push, particles.id[particle], &moved, [size, slope]);
+            let (n, barrier) = (gap.normal, obstacle.barrier);
+            let [normal, slope] = [barrier.force(gap.size), barrier.stiffness(gap.size)];
+            let stiffness = n * n.transpose() * slope - gap.bend * normal;
+            let mut push = Push { particle, by, force: n * normal, stiffness, stretch: [0.0; D] };
+            obstacle.rub(&mut push, particles.id[particle], &moved, &gap, [normal, slope]);
             found.push(push);
         }
     }
@@ -132,7 +121,7 @@ pub(super) fn pushes<const D: usize>(
 }
 
 /// How much of a `correction` to the nodal increments `u` (m) may be taken: all of it, or nine tenths of what would
-/// close the first gap. Gaps are linear in the increments.
+/// close the first gap. Gaps before a facet are linear in the increments; a trial that closes another one is refused.
 pub(super) fn open_share<const D: usize>(
     obstacles: &[Obstacle<D>],
     elements: &Elements<D>,
@@ -142,44 +131,46 @@ pub(super) fn open_share<const D: usize>(
 ) -> f64 {
     let mut share: f64 = 1.0;
     for obstacle in obstacles {
-        let (axis, sign) = (obstacle.face.axis(), obstacle.face.sign());
         for (particle, x) in particles.position.iter().enumerate() {
             let place = SVector::from(*x) + elements.value(particle, u);
-            let closing = -sign * elements.value(particle, correction)[axis];
-            if let Some(gap) = obstacle.gap(&place).filter(|_| closing > 0.0) {
-                share = share.min(OPEN * gap / closing);
+            let Some(gap) = obstacle.gap(&place) else { continue };
+            let closing = -gap.normal.dot(&elements.value(particle, correction));
+            if closing > 0.0 {
+                share = share.min(OPEN * gap.size / closing);
             }
         }
     }
     share
 }
 
-/// Whether the stiffness of a scene is symmetric: friction that can slip has no potential.
+/// Whether the stiffness of a scene is symmetric: friction has a potential where it can't slip on a plane.
 pub(super) fn is_symmetric<const D: usize>(scene: &Scene<D>) -> bool {
-    let mut frictions = scene.contacts.iter().filter_map(RigidContact::friction);
-    scene.bodies.each.iter().all(|body| body.law.conservative())
-        && frictions.all(|friction| friction.coefficient().is_none())
+    scene.bodies.each.iter().all(|body| body.law.conservative()) && scene.contacts.iter().all(has_potential)
+}
+
+fn has_potential<const D: usize>(contact: &RigidContact<D>) -> bool {
+    contact.friction().is_none_or(|friction| friction.coefficient().is_none() && contact.face().is_plane())
 }
 
 /// That a solver with `remedy` can have these contacts on `grid`.
 ///
 /// # Errors
-/// A face across a periodic axis; friction that can slip, with F̄.
+/// A face across a periodic axis; friction without a potential, with F̄.
 pub(super) fn check<const D: usize>(
     contacts: &[RigidContact<D>],
     grid: &crate::Grid<D>,
     remedy: Remedy,
 ) -> Result<(), Error> {
     for contact in contacts {
-        let axis = contact.face().axis();
-        let periodic = grid.axes[axis].is_periodic();
-        require(!periodic, "axis of a rigid face", axis as f64, "not periodic")?;
+        let periodic = contact.face().crosses(|axis| grid.axes[axis].is_periodic());
+        require(periodic.is_none(), "axis of a rigid face", periodic.unwrap_or(0) as f64, "not periodic")?;
         let slipping = contact.friction().and_then(|f| f.coefficient());
         require(
-            slipping.is_none() || remedy == Remedy::None,
+            has_potential(contact) || remedy == Remedy::None,
             "friction coefficient of an implicit run with F-bar",
             slipping.unwrap_or(0.0),
-            "none or infinite (rough): F-bar is solved by conjugate gradients, and slip has no symmetric stiffness",
+            "none, or infinite (rough) on a plane face: F-bar is solved by conjugate gradients, and other friction has no \
+             symmetric stiffness",
         )?;
     }
     Ok(())

@@ -37,6 +37,7 @@ macro_rules! every_basis {
 mod cause;
 mod contact;
 mod friction;
+mod mesh;
 mod stiffness;
 mod take_over;
 

@@ -12,7 +12,8 @@ fn gaps_are_those_before_the_face() {
     let press = RigidFace::half_space(1, End::Hi, 1.0).unwrap().within([[0.0, 2.0], [5.0, 6.0]]);
     assert_eq!(press.gap(&[2.0, 0.75]), Some(0.25));
     assert_eq!(press.gap(&[2.1, 0.75]), None);
-    assert_eq!((press.axis(), press.sign()), (1, -1.0));
+    let seen = press.seen_at(&[2.0, 0.75], 0.0).unwrap();
+    assert_eq!((seen.normal, seen.bend), ([0.0, -1.0].into(), Default::default()));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Lines around the particles in pictures of a scene in the plane: the bodies at the start, and supports.
 
 use super::fault;
-use super::form::{Finite, ShapeForm, SupportForm};
+use super::form::{Finite, ShapeForm, SupportForm, SurfaceForm};
 use super::setup::{Setup, acts, components, speeds};
 use super::shape::ends;
 use crate::case::{Scenery, Timed};
@@ -13,9 +13,11 @@ const ROUND: u32 = 72;
 /// Relative difference of two times that is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// A support or a face: a box that may move.
+/// A support, a face or a surface: a box or a chain that may move.
 struct Held<const D: usize> {
     ends: [[f64; 2]; D],
+    /// Corners of a surface; none of a box.
+    chain: Vec<[f64; D]>,
     velocity: [f64; D],
     amplitude: Amplitude,
     /// Beginning and duration (s) of the phases in which it acts.
@@ -31,8 +33,12 @@ impl<const D: usize> Held<D> {
         }
         let stroke = |[begin, duration]: &[f64; 2]| self.amplitude.integral((time - begin).min(*duration));
         let stroke: f64 = self.acts.iter().map(stroke).sum();
+        let place = |x: [f64; D], a: usize| x[a] + self.velocity[a] * stroke;
+        if !self.chain.is_empty() {
+            return Some((self.chain.iter().map(|x| (place(*x, 0), place(*x, D - 1))).collect(), true));
+        }
         let end = |a: usize, side: usize| {
-            (self.ends[a][side] + self.velocity[a] * stroke).clamp(grid.axes[a].lo, grid.axes[a].hi(grid.h))
+            place(self.ends.map(|ends| ends[side]), a).clamp(grid.axes[a].lo, grid.axes[a].hi(grid.h))
         };
         let corners = [(0, 0), (1, 0), (1, 1), (0, 1), (0, 0)];
         Some((corners.map(|(i, j)| (end(0, i), end(D - 1, j))).to_vec(), true))
@@ -75,12 +81,19 @@ impl<const D: usize> Setup<D> {
                 let own = &self.grid.axes[*axis as usize];
                 let mut ends = [[f64::NEG_INFINITY, f64::INFINITY]; D];
                 ends[*axis as usize] = [[own.lo, own.hi(self.grid.h)][*end as usize]; 2];
-                Held { ends, velocity: [0.0; D], amplitude: Amplitude::Rise(0.0), acts: during(phases) }
+                Held {
+                    ends,
+                    chain: Vec::new(),
+                    velocity: [0.0; D],
+                    amplitude: Amplitude::Rise(0.0),
+                    acts: during(phases),
+                }
             }
             SupportForm::Nodes { within, velocity_m_s, moves, rise_s, amplitude, phases, .. } => {
                 let velocity = speeds(velocity_m_s).map(|speed| speed.filter(|_| *moves).unwrap_or(0.0));
                 Held {
                     ends: ends(within),
+                    chain: Vec::new(),
                     velocity,
                     amplitude: self.over_time(*rise_s, amplitude),
                     acts: during(phases),
@@ -90,10 +103,16 @@ impl<const D: usize> Setup<D> {
         let supports = self.form.supports.iter().map(|form| support(form.get_ref()));
         let faces = self.form.contacts.iter().map(|form| {
             let (form, mut ends) = (form.get_ref(), ends(&form.get_ref().within));
-            ends[form.axis as usize] = [form.at_m.0; 2];
+            let chain = match &form.surface {
+                Some(SurfaceForm::Polygon { corners_m }) => corners_m.iter().map(|corner| components(corner)).collect(),
+                _ => Vec::new(),
+            };
+            if let Some((axis, at)) = form.axis.zip(form.at_m) {
+                ends[axis as usize] = [at.0; 2];
+            }
             let velocity = components(form.velocity_m_s.as_deref().unwrap_or_default());
             let amplitude = self.over_time(form.rise_s, &form.amplitude);
-            Held { ends, velocity, amplitude, acts: during(&form.phases) }
+            Held { ends, chain, velocity, amplitude, acts: during(&form.phases) }
         });
         let held: Vec<Held<D>> = supports.chain(faces).collect();
         let bodies: Vec<Line> = self.form.all_bodies().flat_map(|body| &body.get_ref().shapes).map(outline).collect();

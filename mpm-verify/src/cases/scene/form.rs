@@ -189,10 +189,12 @@ tables! {
         drain_penalty_m_pa_s: Option<Positive>,
     }
 
-    /// A rigid face with a barrier in front: at `lo` a floor of what lies above it, at `hi` what presses from above.
+    /// A rigid body with a barrier in front, of a face or a surface: the face is at `lo` a floor of what lies above it, at
+    /// `hi` what presses from above.
     ContactForm {
-        name: Name, axis: AxisForm, end: EndForm, at_m: Finite,
+        name: Name, axis: Option<AxisForm>, end: Option<EndForm>, at_m: Option<Finite>,
         #[serde(default)] within: Region,
+        surface: Option<SurfaceForm>,
         velocity_m_s: Option<Vec<Finite>>,
         #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
         stiffness_n_m: Positive, reach_m: Positive,
@@ -258,6 +260,14 @@ kinds! {
         Disc { centre_m: Vec<Finite>, radius_m: Positive },
         /// From a CSV file beside the scene: places, and volumes and velocities if it has them.
         Particles { file: String },
+    }
+
+    /// The surface of a rigid body.
+    SurfaceForm {
+        /// Sides from corner to corner, with the body's outside on their left; closed where the last corner is the first.
+        Polygon { corners_m: Vec<Vec<Finite>> },
+        /// Triangles of a file beside the scene, whose corners turn counter-clockwise as seen from outside.
+        Stl { file: String },
     }
 
     /// Where a cone has the limit loads of Mohr and Coulomb's law.

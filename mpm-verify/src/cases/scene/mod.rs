@@ -8,6 +8,7 @@ mod around;
 mod balance;
 mod body;
 mod checks;
+mod contact;
 mod defaults;
 mod fault;
 mod form;
@@ -97,7 +98,9 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
     let numbers = places.as_flattened().iter().chain(volumes).chain(velocities.as_flattened()).copied().chain(parts);
     sum.update(format!("{:?}", setup.amplitudes).as_bytes());
     numbers.chain([source.weaker]).for_each(|x| sum.update(&x.to_le_bytes()));
-    // A checksum of file, amplitudes and particles, by which a checkpoint tells its scene from others.
+    let files = setup.surfaces.iter().flatten().map(|(_, file)| *file).filter(|file| *file != 0);
+    files.for_each(|file| sum.update(&file.to_le_bytes()));
+    // A checksum of file, amplitudes, particles and surfaces, by which a checkpoint tells its scene from others.
     let level = Level { name: lasting(format!("{:08x}", sum.finalize())), h: setup.grid.h };
     let (scheme, made, height, weight) = (setup.scheme, setup.made(), setup.relief(), setup.weight());
     let title = lasting(one_line(&setup.form.title));

@@ -2,10 +2,10 @@
 
 use super::amplitude::{Amplitudes, amplitudes};
 use super::body::{check_bodies, other_laws};
+use super::contact::{Surface, contact, surface};
 use super::fault::{Line, Source};
 use super::form::{
-    AxisForm, ConductivityForm, ContactForm, EndForm, EndsForm, FaceForm, Finite, Form, SupportForm, WallForm,
-    WallsForm,
+    AxisForm, ConductivityForm, EndForm, EndsForm, FaceForm, Finite, Form, SupportForm, WallForm, WallsForm,
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{Seeds, ends, holds, seed, vector};
@@ -34,6 +34,8 @@ pub(super) struct Setup<const D: usize> {
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
     pub(super) amplitudes: Amplitudes,
+    /// Of every contact.
+    pub(super) surfaces: Vec<Option<Surface<D>>>,
     pub(super) grid: Grid<D>,
     pub(super) seeds: Seeds<D>,
     /// Where the particles of every body end among all, and the laws of the bodies after the first one.
@@ -62,10 +64,12 @@ impl<const D: usize> Setup<D> {
         let others = other_laws(source, &form)?;
         let phases = phases(source, &form, scheme, grid.h, &others)?;
         let amplitudes = amplitudes(source, &form)?;
+        let surfaces = form.contacts.iter().map(|contact| surface(source, contact)).collect::<Result<_, _>>()?;
         let setup = Self {
             scheme,
             phases,
             amplitudes,
+            surfaces,
             grid,
             seeds,
             ends,
@@ -112,7 +116,7 @@ impl<const D: usize> Setup<D> {
         }
         for contact in &self.form.contacts {
             let form = contact.get_ref();
-            own_axis::<D, _>(source, contact, form.axis)?;
+            form.axis.map_or(Ok(()), |axis| own_axis::<D, _>(source, contact, axis))?;
             if let Some(velocity) = &form.velocity_m_s {
                 vector::<D, _>(source, contact, "velocity_m_s", velocity)?;
             }
@@ -298,9 +302,11 @@ impl<const D: usize> Setup<D> {
     }
 
     fn contacts(&self, phase: &str) -> Result<Vec<RigidContact<D>>, mpm_core::Error> {
-        let forms = self.form.contacts.iter().map(Line::get_ref);
-        let forms = forms.filter(|form| acts(&form.phases, phase));
-        forms.map(|form| self.contact(form)).collect()
+        let forms = self.form.contacts.iter().map(Line::get_ref).zip(&self.surfaces);
+        let forms = forms.filter(|(form, _)| acts(&form.phases, phase));
+        let made =
+            forms.map(|(form, surface)| contact(form, surface.as_ref(), self.over_time(form.rise_s, &form.amplitude)));
+        made.collect()
     }
 
     /// How an explicit run takes its steps.
@@ -392,22 +398,6 @@ impl<const D: usize> Setup<D> {
             }
             (None, penalty) => Face::drained(particles, on, at, value(penalty)),
         }
-    }
-
-    fn contact(&self, form: &ContactForm) -> Result<RigidContact<D>, mpm_core::Error> {
-        let mut face =
-            RigidFace::half_space(form.axis as usize, end_of(form.end), form.at_m.0)?.within(ends(&form.within));
-        if let Some(velocity) = &form.velocity_m_s {
-            face = face.moving(components(velocity), self.over_time(form.rise_s, &form.amplitude))?;
-        }
-        let contact = RigidContact::new(face, Barrier::new(form.stiffness_n_m.0, form.reach_m.0)?);
-        Ok(match form.friction {
-            None => contact,
-            Some(friction) => contact.with_friction(match friction.coefficient {
-                Some(mu) => Friction::new(mu.0, friction.stiffness_n_m.0)?,
-                None => Friction::rough(friction.stiffness_n_m.0)?,
-            }),
-        })
     }
 }
 

@@ -12,6 +12,7 @@ mod moves;
 mod pairs;
 mod random;
 mod soil;
+mod surfaces;
 mod told;
 mod weights;
 
