@@ -1,6 +1,6 @@
 //! Face of a rigid body with a prescribed motion.
 
-use super::mesh::{Gap, Mesh};
+use super::surface::{Gap, Seen, Surface};
 use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::particles::Particles;
@@ -9,7 +9,7 @@ use nalgebra::{SMatrix, SVector};
 use std::sync::Arc;
 
 /// The face of a rigid body, which may move: a plane, which may be limited across its normal (a footing), or a surface
-/// of facets.
+/// of any shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidFace<const D: usize> {
     shape: Shape<D>,
@@ -18,10 +18,20 @@ pub struct RigidFace<const D: usize> {
 }
 
 /// Where a face is at time zero.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 enum Shape<const D: usize> {
     Plane(Plane<D>),
-    Mesh(Arc<Mesh<D>>),
+    Any(Arc<dyn Surface<D>>),
+}
+
+impl<const D: usize> PartialEq for Shape<D> {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Plane(own), Self::Plane(other)) => own == other,
+            (Self::Any(own), Self::Any(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,10 +60,10 @@ impl<const D: usize> RigidFace<D> {
         Ok(Self::at_rest(Shape::Plane(Plane { axis, sign, position, extent })))
     }
 
-    /// A rigid body at rest with the surface `mesh`.
+    /// A rigid body at rest with this surface.
     #[must_use]
-    pub fn mesh(mesh: Arc<Mesh<D>>) -> Self {
-        Self::at_rest(Shape::Mesh(mesh))
+    pub fn surface(surface: Arc<dyn Surface<D>>) -> Self {
+        Self::at_rest(Shape::Any(surface))
     }
 
     fn at_rest(shape: Shape<D>) -> Self {
@@ -61,7 +71,7 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Limits a plane face to `extent`, lower and upper end along every axis (m) at time zero; that along the normal
-    /// has no meaning. Particles beside the face do not feel it. A mesh ends where its facets end.
+    /// has no meaning. Particles beside the face do not feel it. A surface ends where its own rim is.
     #[must_use]
     pub fn within(mut self, extent: [[f64; 2]; D]) -> Self {
         if let Shape::Plane(plane) = &mut self.shape {
@@ -82,7 +92,7 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Puts a plane face, at time zero, at the gap `gap` (m) from the nearest of the particles before it: at the
-    /// distance d̂ of a barrier it just touches. With no particle before it, it stays, and so does a mesh.
+    /// distance d̂ of a barrier it just touches. With no particle before it, it stays, and so does a surface.
     #[must_use]
     pub fn touching(mut self, particles: &Particles<D>, gap: f64) -> Self {
         let gaps = particles.position.iter().filter_map(|x| self.gap(x));
@@ -106,7 +116,7 @@ impl<const D: usize> RigidFace<D> {
                 let position = frame.place(&on_face)[axis];
                 Shape::Plane(Plane { axis, sign: sign * plane.sign, position, extent: frame.extent(&plane.extent) })
             }
-            Shape::Mesh(mesh) => Shape::Mesh(Arc::new(mesh.seen_from(frame))),
+            Shape::Any(surface) => Shape::Any(Arc::new(Seen { surface: surface.clone(), frame: *frame })),
         };
         let velocity = frame.vector(&self.velocity, frame.scale(0, 1));
         Self { shape, velocity, amplitude: self.amplitude.clone() }
@@ -121,7 +131,7 @@ impl<const D: usize> RigidFace<D> {
     pub(crate) fn crosses(&self, which: impl Fn(usize) -> bool) -> Option<usize> {
         (0..D).filter(|axis| which(*axis)).find(|axis| match &self.shape {
             Shape::Plane(plane) => plane.axis == *axis,
-            Shape::Mesh(mesh) => mesh.crosses(*axis),
+            Shape::Any(surface) => surface.crosses(*axis),
         })
     }
 
@@ -144,11 +154,11 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// The face at time zero as what lies at `x` (m), less the face's displacement, sees it: `None` beside the face, and
-    /// farther than `within` (m) from a mesh.
+    /// farther than `within` (m) from a surface that is no plane.
     pub fn seen_at(&self, x: &[f64; D], within: f64) -> Option<Gap<D>> {
         match &self.shape {
             Shape::Plane(plane) => plane.gap(x),
-            Shape::Mesh(mesh) => mesh.gap(x, within),
+            Shape::Any(surface) => surface.gap(x, within),
         }
     }
 
@@ -157,7 +167,7 @@ impl<const D: usize> RigidFace<D> {
     pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
         match &self.shape {
             Shape::Plane(plane) => plane.is_near(x, distance),
-            Shape::Mesh(mesh) => mesh.is_near(x, distance),
+            Shape::Any(surface) => surface.is_near(x, distance),
         }
     }
 }

@@ -5,12 +5,12 @@
 mod barrier;
 mod face;
 mod friction;
-mod mesh;
+mod surface;
 
 pub use barrier::Barrier;
 pub use face::RigidFace;
 pub use friction::Friction;
-pub use mesh::{Gap, Mesh};
+pub use surface::{Gap, Surface};
 
 use crate::error::Fault;
 use crate::frame::Frame;

@@ -37,8 +37,8 @@ macro_rules! every_basis {
 mod cause;
 mod contact;
 mod friction;
-mod mesh;
 mod stiffness;
+mod surface;
 mod take_over;
 
 /// A box of `cells` cells along each axis, two particles a cell and axis, that fills a grid between walls.

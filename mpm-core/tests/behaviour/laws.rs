@@ -11,6 +11,8 @@ use nalgebra::{Matrix3, Rotation3, Vector3};
 use proptest::prelude::*;
 
 mod drucker_prager;
+mod hencky_j2;
+mod hypoelastic;
 mod mohr_coulomb;
 mod tangent;
 

@@ -2,7 +2,9 @@
 
 use super::*;
 use mpm_core::Frame;
-use mpm_core::contact::{Gap, Mesh};
+use mpm_core::contact::{Gap, Surface};
+use mpm_core::memory::Memory;
+use mpm_surfaces::Mesh;
 use nalgebra::{SMatrix, SVector, Vector3};
 use std::sync::Arc;
 
@@ -38,9 +40,9 @@ fn block_mesh() -> Mesh<3> {
 #[test]
 fn a_level_mesh_is_a_plane_face() {
     let plane = RigidFace::<2>::half_space(1, End::Lo, 0.0).unwrap();
-    let mesh = RigidFace::mesh(Arc::new(chain(&[[-3.0, 0.0], [-1.0, 0.0], [0.5, 0.0], [3.0, 0.0]])));
+    let mesh = RigidFace::surface(Arc::new(chain(&[[-3.0, 0.0], [-1.0, 0.0], [0.5, 0.0], [3.0, 0.0]])));
     let in_space = RigidFace::<3>::half_space(2, End::Lo, 0.0).unwrap();
-    let square = RigidFace::mesh(Arc::new(square(3.0, |_, _| 0.0)));
+    let square = RigidFace::surface(Arc::new(square(3.0, |_, _| 0.0)));
     for k in 0..1000 {
         let (x, y) = (place(k, 2.9), place(k, 2.9));
         assert_eq!(plane.seen_at(&x, 0.0), mesh.seen_at(&x, 9.0));
@@ -137,10 +139,11 @@ fn normals_are_slopes_of_gaps_and_turn_as_they_say() {
 fn a_mesh_is_the_same_from_elsewhere() {
     let frames = [[(1, -1.0), (0, 1.0), (2, 1.0)], [(0, -1.0), (1, 1.0), (2, 1.0)]];
     for frame in frames.map(|axes| Frame::along(axes).shifted([5.0, -3.0, 0.25]).in_units(8.0, 0.25)) {
-        let (mesh, seen) = (block_mesh(), block_mesh().seen_from(&frame));
+        let mesh = block_mesh();
+        let seen = RigidFace::surface(Arc::new(block_mesh())).seen_from(&frame);
         for k in 0..500 {
             let x = place(k, 4.0);
-            let [own, there] = [mesh.gap(&x, 9.0), seen.gap(&frame.place(&x), 72.0)].map(|gap| gap.unwrap());
+            let [own, there] = [mesh.gap(&x, 9.0), seen.seen_at(&frame.place(&x), 72.0)].map(|gap| gap.unwrap());
             assert!((there.size - 8.0 * own.size).abs() < 1e-12, "{x:?}");
             let turned = SVector::from(frame.vector(&own.normal.into(), 1.0));
             let bend = frame.matrix(&own.bend, 0.125);
@@ -180,12 +183,12 @@ fn slope<const D: usize>(foot: &SVector<f64, D>, tangent: f64) -> RigidFace<D> {
         2 => vec![std::array::from_fn(|k| ends[k])],
         _ => [[0, 1, 2], [2, 3, 0]].iter().map(|t| std::array::from_fn(|k| ends[t[k]])).collect(),
     };
-    RigidFace::mesh(Arc::new(Mesh::new(&facets).unwrap()))
+    RigidFace::surface(Arc::new(Mesh::new(&facets).unwrap()))
 }
 
 /// Directions along a slope and out of it.
 fn directions<const D: usize>(tangent: f64) -> [SVector<f64, D>; 2] {
-    let [mut along, mut out] = [SVector::zeros(); 2];
+    let [mut along, mut out] = [SVector::<f64, D>::zeros(); 2];
     (along[0], along[D - 1]) = (1.0, -tangent);
     (out[0], out[D - 1]) = (tangent, 1.0);
     [along.normalize(), out.normalize()]
@@ -326,7 +329,7 @@ fn kinked(particles: &Particles<2>) -> RigidContact<2> {
     let corners = [[0.0, low - 0.06], [1.5, low], [4.0, low - 0.05], [7.0, low - 0.05], [30.0, low + 0.04]];
     let friction = Friction::new(0.3, stick()).unwrap();
     assert!(particles.len() > 1);
-    RigidContact::new(RigidFace::mesh(Arc::new(chain(&corners))), barrier()).with_friction(friction)
+    RigidContact::new(RigidFace::surface(Arc::new(chain(&corners))), barrier()).with_friction(friction)
 }
 
 #[test]
@@ -390,7 +393,7 @@ fn what_begins_deep_in_a_body_is_refused() {
     let particles = block::<2>(16);
     // Clockwise about all of the block, by more than it is looked for in a step.
     let corners = [[-9.0, -9.0], [-9.0, 12.0], [12.0, 12.0], [12.0, -9.0], [-9.0, -9.0]];
-    let contact = RigidContact::new(RigidFace::mesh(Arc::new(chain(&corners))), barrier());
+    let contact = RigidContact::new(RigidFace::surface(Arc::new(chain(&corners))), barrier());
     let error = started(scene(particles, vec![contact])).err().unwrap();
     let closed = matches!(error, Error::Breakdown { fault: Fault::GapClosed(gap), .. } if gap < -5.0);
     assert!(closed, "{error}");

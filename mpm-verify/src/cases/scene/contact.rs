@@ -5,7 +5,7 @@ use super::form::{ContactForm, EndForm, SurfaceForm};
 use super::shape::{ends, vector};
 use crate::cases::prelude::*;
 use crate::files::{DOCUMENT, read};
-use mpm_core::contact::Mesh;
+use mpm_surfaces::Mesh;
 use std::sync::Arc;
 
 /// A surface, and the checksum of the file that it is from.
@@ -39,23 +39,14 @@ pub(super) fn surface<const D: usize>(source: &Source, at: &Line<ContactForm>) -
         Some(SurfaceForm::Stl { file }) => {
             axes("stl", 3)?;
             let path = source.beside(at, file)?;
-            let mut bytes = read(&path, DOCUMENT)?;
-            let checksum = crc32fast::hash(&bytes);
-            // One in binary may begin as one in text does, and has as many bytes as its triangles need.
-            let count = bytes.get(80..84).and_then(|count| count.try_into().ok()).map_or(0, u32::from_le_bytes);
-            if bytes.len() == 84 + 50 * count as usize {
-                bytes[0] = 0;
-            }
-            let mut reader = std::io::Cursor::new(&bytes);
-            let triangles = stl_io::create_stl_reader(&mut reader).and_then(Iterator::collect);
-            let triangles: Vec<stl_io::Triangle> =
-                triangles.map_err(|e| Error::file(&path, format!("no whole STL file: {e}")))?;
-            let corners = |t: &stl_io::Triangle| -> [[f64; D]; D] {
-                std::array::from_fn(|k| std::array::from_fn(|a| t.vertices[k].0[a].into()))
-            };
-            let facets: Vec<_> = triangles.iter().map(corners).collect();
+            let bytes = read(&path, DOCUMENT)?;
+            let triangles = mpm_surfaces::triangles(&bytes);
+            let triangles = triangles.map_err(|e| Error::file(&path, format!("no whole STL file: {e}")))?;
+            let corner = |x: &[f64; 3]| -> [f64; D] { std::array::from_fn(|a| x[a]) };
+            let facets: Vec<[[f64; D]; D]> =
+                triangles.iter().map(|triangle| std::array::from_fn(|k| corner(&triangle[k]))).collect();
             let mesh = Mesh::new(&facets).map_err(|e| Error::file(&path, e))?;
-            Ok(Some((Arc::new(mesh), checksum)))
+            Ok(Some((Arc::new(mesh), crc32fast::hash(&bytes))))
         }
     }
 }
@@ -67,7 +58,7 @@ pub(super) fn contact<const D: usize>(
     amplitude: Amplitude,
 ) -> Result<RigidContact<D>, mpm_core::Error> {
     let mut face = match (surface, form.axis, form.at_m) {
-        (Some((mesh, _)), ..) => RigidFace::mesh(mesh.clone()),
+        (Some((mesh, _)), ..) => RigidFace::surface(mesh.clone()),
         (None, axis, at) => {
             let end = if matches!(form.end, Some(EndForm::Hi)) { End::Hi } else { End::Lo };
             let face =
