@@ -80,10 +80,8 @@ fn tangent_before<const D: usize, I: Interpolation<D>>(round: bool, friction: Op
     let setting = solver.setting(1.0);
     let trial =
         setting.step(&solver.scene.bodies, 1.0).trial(&vec![0.0; setting.unknowns.len()], solver.functions.len());
-    for push in trial.unwrap().pushes {
-        let slips = SVector::from(push.stretch).norm() < 0.1 * H;
-        assert_eq!(slips, friction.is_none_or(|friction| friction.coefficient().is_some()));
-    }
+    let longest = trial.unwrap().pushes.iter().map(|push| SVector::from(push.stretch).norm()).fold(0.0, f64::max);
+    assert_eq!(longest < 0.1 * H, friction.is_none_or(|friction| friction.coefficient().is_some()));
     slope_of_the_forces(&solver);
 }
 
