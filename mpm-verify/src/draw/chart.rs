@@ -27,7 +27,7 @@ pub(crate) enum Dash {
 /// One curve. A point that is not finite interrupts the line. Where a line has more than 40 points
 /// its markers are thinned out.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Series {
+pub(crate) struct Series {
     /// Name in the legend; a series without one is not in it.
     pub name: String,
     /// Points in data coordinates.
@@ -40,7 +40,7 @@ pub struct Series {
 
 /// A horizontal line, such as an exact value, drawn dash-dotted in black.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ReferenceLine {
+pub(crate) struct ReferenceLine {
     /// Name in the legend.
     pub name: String,
     /// Ordinate.
@@ -51,7 +51,7 @@ pub struct ReferenceLine {
 
 /// A slope triangle; it is drawn only when both axes are logarithmic.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SlopeTriangle {
+pub(crate) struct SlopeTriangle {
     /// Slope, the order of convergence.
     pub slope: f64,
     /// Left end of the horizontal leg in data coordinates (for a positive slope, the triangle's
@@ -63,7 +63,7 @@ pub struct SlopeTriangle {
 
 /// One pair of axes with its curves.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chart {
+pub(crate) struct Chart {
     /// Title above the axes; may be empty.
     pub title: String,
     pub x_label: String,
@@ -86,14 +86,14 @@ pub(super) const LEAST: Point = (560.0, 430.0);
 
 impl Series {
     /// A solid line without markers, in a colour of the palette.
-    pub fn line(name: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
+    pub(crate) fn line(name: impl Into<String>, points: Vec<(f64, f64)>, colour: usize) -> Self {
         Self { name: name.into(), points, colour, marker: Marker::None, dash: Dash::Solid }
     }
 }
 
 impl ReferenceLine {
     /// A value that is known to an uncertainty: its band is hardly ever wide enough to be seen, so the name tells it.
-    pub fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
+    pub(crate) fn known_to(name: &str, value: f64, uncertainty: f64) -> Self {
         let tolerance = tick_label(uncertainty, uncertainty, uncertainty);
         Self { name: format!("{name} ± {tolerance}"), value, band: Some(uncertainty) }
     }
@@ -101,7 +101,7 @@ impl ReferenceLine {
 
 impl Chart {
     /// Curves over linear axes, whose labels are those of x and y, and nothing else.
-    pub fn new(title: impl Into<String>, labels: [&str; 2], series: Vec<Series>) -> Self {
+    pub(crate) fn new(title: impl Into<String>, labels: [&str; 2], series: Vec<Series>) -> Self {
         let [x_label, y_label] = labels.map(str::to_owned);
         Self {
             title: title.into(),
@@ -175,7 +175,7 @@ impl Chart {
     }
 
     /// Whether there is a point to draw.
-    pub fn shows_something(&self) -> bool {
+    pub(crate) fn shows_something(&self) -> bool {
         self.series.iter().flat_map(|s| &s.points).any(finite)
     }
 }

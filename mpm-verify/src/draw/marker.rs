@@ -14,7 +14,7 @@ const OUTLINE: f64 = 3.4;
 
 /// Marker of a series: filled with a solid line or none, hollow with a dashed or dotted line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Marker {
+pub(crate) enum Marker {
     None,
     Circle,
     Square,

@@ -39,7 +39,7 @@ impl TryFrom<String> for Line {
 /// The name of a file beside the manifest, or in a folder beside it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
-pub struct FileName(pub String);
+pub(crate) struct FileName(pub String);
 
 impl TryFrom<String> for FileName {
     type Error = String;
@@ -59,7 +59,7 @@ impl TryFrom<String> for FileName {
 /// A positive, finite number.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(try_from = "f64")]
-pub struct Positive(pub f64);
+pub(crate) struct Positive(pub f64);
 
 impl TryFrom<f64> for Positive {
     type Error = String;
@@ -74,7 +74,7 @@ impl TryFrom<f64> for Positive {
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Code {
+pub(crate) struct Code {
     pub name: Line,
     /// Its version or commit.
     pub version: Option<Line>,
@@ -85,7 +85,7 @@ pub struct Code {
 /// Cost of a run, as far as it is known.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Cost {
+pub(crate) struct Cost {
     /// Processor time (s).
     pub cpu_s: Option<Positive>,
     /// Time by the clock (s).
@@ -138,7 +138,7 @@ fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>
 /// Statements of a code on a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Manifest {
+pub(crate) struct Manifest {
     /// [`SCHEMA`].
     pub schema: u32,
     pub code: Code,
@@ -178,7 +178,7 @@ impl Manifest {
     ///
     /// # Errors
     /// The file is missing, no plain file, too large, no JSON, of another schema, or not of this form.
-    pub fn read(folder: &Path) -> Result<Vec<Self>, Error> {
+    pub(crate) fn read(folder: &Path) -> Result<Vec<Self>, Error> {
         #[derive(Deserialize)]
         struct Versioned<'a> {
             schema: u32,
