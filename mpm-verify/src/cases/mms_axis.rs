@@ -10,10 +10,7 @@ struct Axes;
 
 impl Known for Axes {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
 }
 
 pub(super) fn case() -> Case {

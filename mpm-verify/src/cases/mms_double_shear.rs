@@ -11,11 +11,8 @@ struct DoubleShear;
 impl Known for DoubleShear {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Periodic;
-
-    fn parameters() -> Vec<Parameter> {
-        let own = [STEP_POISSON_RATIO.with_default("0.4999")];
-        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.4999")], "0.5", &own)
-    }
+    const PARAMETERS: Composed =
+        (&[ENTRY.parameters], &[(POISSON_RATIO, "0.4999")], "0.5", &[STEP_POISSON_RATIO.with_default("0.4999")]);
 }
 
 pub(super) fn case() -> Case {

@@ -11,10 +11,7 @@ struct Ring;
 impl Known for Ring {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Walls(WallKind::Fixed);
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(ANGLE, "0.05")], "0.5", &[STEP_POISSON_RATIO])
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(ANGLE, "0.05")], "0.5", &[STEP_POISSON_RATIO]);
 }
 
 /// Angles (rad) beyond this shear the ring by more than its own thickness.
@@ -51,11 +48,11 @@ pub(super) fn case() -> Case {
 }
 
 fn claim(r: &Setup<()>) -> Claim {
-    if r.values.number(ANGLE) > LARGE {
+    if r.number(ANGLE) > LARGE {
         Claim::Stalls(1.0, "shear of 4.8 parts particles by five cells and more")
     } else if r.transfer() != TransferName::Flip {
         Claim::Open(TRANSFER)
-    } else if r.values.number(PPC_PER_DIRECTION) > 2.0 {
+    } else if r.number(PPC_PER_DIRECTION) > 2.0 {
         Claim::Open("runs with more particles end at n32; the band is that of n16 to n64")
     } else {
         Claim::Observed([1.15, 2.15], "the body force jumps at the two circles: order two at best")

@@ -11,10 +11,7 @@ struct WallPressure;
 
 impl Known for WallPressure {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
 }
 
 const LARGE: &str = "amplitude=0.05 ppc_per_direction=4";

@@ -68,7 +68,7 @@ impl Wave {
 
     /// ω/kc.
     fn ratio(&self, r: &Run<()>) -> f64 {
-        let number = |p| r.values.number(p);
+        let number = |p| r.number(p);
         let Ok(law) = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO)) else { return f64::NAN };
         let density = number(DENSITY);
         let speed = if self.shear { (law.mu / density).sqrt() } else { law.wave_speed(density) };
@@ -98,7 +98,7 @@ impl Wave {
 
     /// Reason why a scheme is known not to keep the bound, if there is one.
     fn shortcoming(r: &Run<()>, claim: &Claim) -> Option<&'static str> {
-        let nearly_incompressible = r.values.number(POISSON_RATIO) > 0.499;
+        let nearly_incompressible = r.number(POISSON_RATIO) > 0.499;
         if nearly_incompressible && matches!(r.remedy(), FbarTotal | FbarRate) {
             return Some(NULL_SPACE);
         }
@@ -125,7 +125,7 @@ impl Wave {
 
 /// ωΔt.
 fn phase(r: &Run<()>) -> f64 {
-    r.values.number(ANGULAR_FREQUENCY) * r.dt()
+    r.number(ANGULAR_FREQUENCY) * r.dt()
 }
 
 /// The checks of a motion that is a wave: mass, the bound on its error, and the order of its displacement.

@@ -132,10 +132,6 @@ impl Beam<'_> {
         angle * angle / 6.0 + SECTIONS.max(0.095 * sheared)
     }
 
-    fn is_predicted(&self) -> bool {
-        self.metric(PREDICTED_RATIO).is_finite()
-    }
-
     fn is_plain(&self) -> bool {
         self.remedy() == RemedyName::None
     }
@@ -162,12 +158,12 @@ fn checks() -> Vec<Check> {
     };
     vec![
         Check::truth("as-predicted", "linear functions and splines, no remedy, midpoint with lumped=0: frequency that of the discrete bending stiffness within (βh)²/6 + 0.002, β the wave number")
-            .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.is_predicted())
+            .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.has(PREDICTED_RATIO))
             .unless(|b| b.fades())
             .within(FREQUENCY_RATIO, |b| b.metric(PREDICTED_RATIO), |b| b.slack() * b.metric(PREDICTED_RATIO))
             .because("mass of the particles, stiffness by docs/thin.md; along the beam cells err by (βh)²/12, sections shear by Cowper's coefficient or evenly"),
         Check::truth("no-stiffer", "frequency at most the predicted one, within the tolerance of as-predicted")
-            .when(|b| b.is_predicted())
+            .when(|b| b.has(PREDICTED_RATIO))
             .unless(|b| b.fades())
             .at_most(Quantity::new(FREQUENCY_RATIO.name, |b: &Beam| b.frequency()), |b| (1.0 + b.slack()) * b.metric(PREDICTED_RATIO))
             .because("lumping adds inertia; functions that see a hair of the beam and averages of the volume change take stiffness"),
