@@ -43,6 +43,14 @@ impl<P: ParameterSet> Setup<P> {
         Ok(Self::new(spec, values, P::read(values)?))
     }
 
+    /// The same, with the parameters that the run sets.
+    ///
+    /// # Errors
+    /// A parameter that is unknown, or of another type.
+    pub(crate) fn of_plan(spec: &RunSpec) -> Result<Self, Error> {
+        Self::of_spec(spec, &Parameters::new(&P::list(), &spec.set)?)
+    }
+
     /// The setup of a run that was made.
     ///
     /// # Errors

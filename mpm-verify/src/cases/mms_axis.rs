@@ -15,7 +15,7 @@ impl Known for Axes {
 
 pub(super) fn case() -> Case {
     // Half waves across the body, a wave by default.
-    let wave = Wave::pressure(|p| PI * p.number(HALF_WAVES));
+    let wave = Wave::Pressure(|p| PI * p.number(HALF_WAVES));
     known_case::<2, Axes>([
         "mms-axis",
         "Axis-aligned displacement",

@@ -26,7 +26,7 @@ pub(super) fn case() -> Case {
     .limit("No boundary: mms-vortex-box has walls.")
     .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
     // One wave across the body.
-    .checks(of_motion(claim, Wave::shear(|_| TAU)))
+    .checks(of_motion(claim, Wave::Shear(|_| TAU)))
     .checks(locking())
     .sweep(LOCKING_CURVE)
     .breaks_down(|r| {

@@ -36,7 +36,7 @@ pub(super) fn case() -> Case {
     .limit("Compression and extension without shear: mms-vortex-box has the shear.")
     .limit("At ν = 0.3 nothing locks.")
     // Half a wave across the body.
-    .checks(of_motion(claim, Wave::pressure(|_| PI)))
+    .checks(of_motion(claim, Wave::Pressure(|_| PI)))
     .checks([stress_order(claim)])
     .checks(order_in_time())
     .begun(begin::<WallPressure>)

@@ -70,6 +70,8 @@ fn table(name: &str, set: &'static str) -> ResultTable {
 }
 
 fn checks() -> Vec<Check> {
+    // There is no known reason to leave the state of rest.
+    let is_sound = |r: &Run<()>| r.remedy() != FbarRecursive && r.basis() != Bspline3;
     vec![
         mass(),
         Gate::truth("stays", "distance of every particle from rest at most h² |u″|/8, of ρ g sin θ/μ along and ρ g cos θ/M across")
@@ -87,7 +89,7 @@ fn checks() -> Vec<Check> {
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
         Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
-            .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
+            .when(move |r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
         Gate::known_limit("out-of-balance", "cubic splines, and all on the wall's line: distance of a particle from rest above the bound of stays")
@@ -99,11 +101,6 @@ fn checks() -> Vec<Check> {
             .within(BASE_PRESSURE, |r| 0.5 * base_pressure(r), |r| 0.05 * base_pressure(r))
             .because("Eq. (26) diffuses J̄ until it is the same everywhere, in 10⁴ steps here; shear takes over what it leaves"),
     ]
-}
-
-/// Whether a scheme has no known reason to leave the state of rest.
-fn is_sound(r: &Run<()>) -> bool {
-    r.remedy() != FbarRecursive && r.basis() != Bspline3
 }
 
 /// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ along the slope

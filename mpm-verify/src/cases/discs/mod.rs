@@ -128,9 +128,7 @@ fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let values = Parameters::new(&Discs::list(), &spec.set).map_err(Error::from);
-    let setup = values.and_then(|values| Setup::<Discs>::of_spec(spec, &values));
-    let steps = setup.map_or(0, |setup| setup.timing().1);
+    let steps = Setup::<Discs>::of_plan(spec).map_or(0, |setup| setup.timing().1);
     let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }

@@ -176,8 +176,7 @@ impl<K: Known> Scenario<K> {
 /// Cost of a run, by its particle steps.
 pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
     let particle_steps = || {
-        let values = Parameters::new(&K::parameters(), &spec.set).ok()?;
-        let scenario = Scenario::<K>::new(Setup::of_spec(spec, &values).ok()?).ok()?;
+        let scenario = Scenario::<K>::new(Setup::of_plan(spec).ok()?).ok()?;
         let steps = scenario.timing().ok()?.steps;
         let (solution, per_cell) = (&scenario.solution, scenario.setup.number(PPC_PER_DIRECTION));
         let extent = solution.extent();

@@ -132,10 +132,6 @@ impl Beam<'_> {
         angle * angle / 6.0 + SECTIONS.max(0.095 * sheared)
     }
 
-    fn is_plain(&self) -> bool {
-        self.remedy() == RemedyName::None
-    }
-
     fn is_spline(&self) -> bool {
         matches!(self.basis(), Bspline2 | Bspline3)
     }
@@ -173,11 +169,11 @@ fn checks() -> Vec<Check> {
             .at_most(|_| 1.0 + READ)
             .because("an average of the volume change stores no more energy than the volume change"),
         Check::known_limit("locks", "linear functions without a remedy at ν ≥ 0.49, one and two cells: frequency above 1.5 times the exact one")
-            .when(|b| b.basis() == Linear && b.is_plain() && b.level != "t4" && b.poisson_ratio >= STIFF)
+            .when(|b| b.basis() == Linear && b.remedy() == RemedyName::None && b.level != "t4" && b.poisson_ratio >= STIFF)
             .above(FREQUENCY_RATIO, |_| LOCKED)
             .because("within a cell the depth can't change as it bends, at the price of M and not of E′"),
         Check::known_limit("two-particles", "splines without a remedy, one cell with two particles over the depth: frequency below 0.9 of the exact one")
-            .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.is_plain())
+            .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.remedy() == RemedyName::None)
             .at_most(FREQUENCY_RATIO, |_| SOFT)
             .because("two particles have three quarters of the second moment of the section"),
         averaged(
@@ -192,7 +188,7 @@ fn checks() -> Vec<Check> {
 /// The order of each spline without a remedy whose faces lie on grid lines, over all levels.
 fn orders(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Beam> = Run::all(records).collect();
-    let judged = |b: &Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
+    let judged = |b: &Beam| b.is_spline() && b.remedy() == RemedyName::None && b.shift == 0.0;
     let orders = orders_from(&runs, judged, "t1", FREQUENCY_ERROR);
     let orders = orders.filter_map(|(first, order)| Some((about("order", first), order?)));
     let why = "the second moment of the particles and the turning of the nodes' mass both err by h²";

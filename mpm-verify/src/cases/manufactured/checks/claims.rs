@@ -113,7 +113,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
 }
 
 /// The vortex in a box: its profile falls from one to a half over 0.16 m, a sixth of a wave.
-pub(in crate::cases) const VORTEX: Wave = Wave::shear(|_| 6.5);
+pub(in crate::cases) const VORTEX: Wave = Wave::Shear(|_| 6.5);
 
 pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
     if r.basis() == Linear {
