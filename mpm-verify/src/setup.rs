@@ -3,7 +3,7 @@
 
 use crate::error::Error;
 use crate::metric::Metric;
-use crate::parameter::{ParameterSet, Parameters};
+use crate::parameter::{Parameter, ParameterSet, Parameters};
 use crate::record::{Record, Status};
 use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceName, TransferName};
 use crate::spec::RunSpec;
@@ -43,6 +43,14 @@ impl<P: ParameterSet> Setup<P> {
         Ok(Self::new(spec, values, P::read(values)?))
     }
 
+    /// The same, with the parameters that the run sets.
+    ///
+    /// # Errors
+    /// A parameter that is unknown, or of another type.
+    pub(crate) fn of_plan(spec: &RunSpec) -> Result<Self, Error> {
+        Self::of_spec(spec, &Parameters::new(&P::list(), &spec.set)?)
+    }
+
     /// The setup of a run that was made.
     ///
     /// # Errors
@@ -71,6 +79,11 @@ impl<P: ParameterSet> Setup<P> {
 }
 
 impl<P> Setup<P> {
+    /// The number that a parameter is; NaN without it.
+    pub(crate) fn number(&self, parameter: Parameter) -> f64 {
+        self.values.number(parameter)
+    }
+
     /// The setup of a run to be made, with parameters of its `own`.
     pub(crate) fn new(spec: &RunSpec, values: &Parameters, own: P) -> Self {
         Self {

@@ -60,6 +60,11 @@ impl Sketch {
         self.with(Shape::Held(from, to))
     }
 
+    /// Adds the sides that are held between these points, one after another.
+    pub(crate) fn held_along(self, points: &[Point]) -> Self {
+        points.windows(2).fold(self, |sketch, side| sketch.held(side[0], side[1]))
+    }
+
     /// Adds a load, with the arrow's tip at `to`.
     pub(crate) fn load(self, from: Point, to: Point) -> Self {
         self.with(Shape::Load(from, to))

@@ -10,12 +10,12 @@ pub(super) const DENSITY: f64 = 1000.0;
 impl<P: ParameterSet> Setup<P> {
     /// Distance of particles (m), by the parameter `ppc_per_direction`.
     pub(super) fn pitch(&self) -> f64 {
-        self.h / self.values.number(common::PPC_PER_DIRECTION)
+        self.h / self.number(common::PPC_PER_DIRECTION)
     }
 
     /// The discretisation in `dim` dimensions with that number of particles in every direction, and steps of `dt` (s).
     pub(super) fn regular(&self, dim: usize, dt: f64) -> Discretisation {
-        let per_direction = self.values.number(common::PPC_PER_DIRECTION) as usize;
+        let per_direction = self.number(common::PPC_PER_DIRECTION) as usize;
         self.discretisation(dim, per_direction.pow(dim as u32), dt)
     }
 
@@ -33,7 +33,7 @@ impl<P: ParameterSet> Setup<P> {
     /// parameter `flip` sets.
     pub(super) fn explicit<const D: usize>(&self, scene: Scene<D>, dt: f64, damping: f64) -> Begun<D> {
         let settings = self.settings(dt, damping)?;
-        let share = self.values.number(common::FLIP);
+        let share = self.number(common::FLIP);
         let settings = if share.is_nan() { settings } else { settings.transfer(Flip::new(share)?) };
         mpm_solvers::solver(self.scheme, scene, settings)
     }

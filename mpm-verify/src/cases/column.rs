@@ -27,10 +27,7 @@ impl Known for WaterColumn {
     const BOUNDARY: Boundary = Boundary::Vessel;
     const FLUID: bool = true;
     const RESTS: bool = true;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(CFL, "0.057"), (PPC_PER_DIRECTION, "5")], "0.2", &[])
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(CFL, "0.057"), (PPC_PER_DIRECTION, "5")], "0.2", &[]);
 }
 
 pub(super) fn case() -> Case {
@@ -62,18 +59,14 @@ pub(super) fn case() -> Case {
     .headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4)
     .headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1)
     .pictures(pictures)
-    .tables(vec![tables::metrics(
-        "column",
-        HALF_A_MILLION,
-        [
-            ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
-            ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
-            ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
-            ("last/middle third", KINETIC_GROWTH, SHORT),
-            ("pressure at the floor (kPa; exact 19.57)", BASE_PRESSURE, fixed(2).times(1e-3)),
-            ("rms error of u (m)", DISPLACEMENT_L2, SHORT),
-        ],
-    )])
+    .table(ResultTable::of("column", |r| tables::changes(r, HALF_A_MILLION))
+        .by(&[SCHEME])
+        .metric("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT)
+        .metric("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT)
+        .metric("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT)
+        .metric("last/middle third", KINETIC_GROWTH, SHORT)
+        .metric("pressure at the floor (kPa; exact 19.57)", BASE_PRESSURE, fixed(2).times(1e-3))
+        .metric("rms error of u (m)", DISPLACEMENT_L2, SHORT))
 }
 
 pub(super) fn foreign() -> Foreign {
@@ -101,14 +94,14 @@ fn rests(r: &Run<()>) -> bool {
 
 /// ρ g (Pa/m).
 fn weight(r: &Run<()>) -> f64 {
-    r.values.number(DENSITY) * r.values.number(GRAVITY)
+    r.number(DENSITY) * r.number(GRAVITY)
 }
 
 /// Whether the pressure ρ c v of the motion is as large as what the pressure at the floor may be off.
 fn rings(r: &Run<()>) -> bool {
     let speed = (2.0 * r.metric(KINETIC_ENERGY_PEAK) / r.metric(MASS)).sqrt();
-    let sound = r.values.number(CFL) * r.h / r.dt();
-    sound * speed > 0.25 * r.h * r.values.number(GRAVITY)
+    let sound = r.number(CFL) * r.h / r.dt();
+    sound * speed > 0.25 * r.h * r.number(GRAVITY)
 }
 
 fn checks() -> Vec<Check> {
@@ -121,7 +114,7 @@ fn checks() -> Vec<Check> {
                 let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
                 creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())
             })
-            .within(BASE_PRESSURE, |r| weight(r) * r.values.number(HEIGHT), |r| 0.25 * r.h * weight(r))
+            .within(BASE_PRESSURE, |r| weight(r) * r.number(HEIGHT), |r| 0.25 * r.h * weight(r))
             .because("ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall"),
         Gate::known_limit("creep", "fbar-recursive: mean J of a cell drifts by more than 10⁻³ per 10⁵ steps")
             .when(|r| r.basis() != Bspline3 && r.remedy() == FbarRecursive)

@@ -10,15 +10,12 @@ struct Axes;
 
 impl Known for Axes {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
 }
 
 pub(super) fn case() -> Case {
     // Half waves across the body, a wave by default.
-    let wave = Wave::pressure(|p| PI * p.number(HALF_WAVES));
+    let wave = Wave::Pressure(|p| PI * p.number(HALF_WAVES));
     known_case::<2, Axes>([
         "mms-axis",
         "Axis-aligned displacement",

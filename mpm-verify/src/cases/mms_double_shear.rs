@@ -11,11 +11,8 @@ struct DoubleShear;
 impl Known for DoubleShear {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Periodic;
-
-    fn parameters() -> Vec<Parameter> {
-        let own = [STEP_POISSON_RATIO.with_default("0.4999")];
-        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.4999")], "0.5", &own)
-    }
+    const PARAMETERS: Composed =
+        (&[ENTRY.parameters], &[(POISSON_RATIO, "0.4999")], "0.5", &[STEP_POISSON_RATIO.with_default("0.4999")]);
 }
 
 pub(super) fn case() -> Case {
@@ -29,7 +26,7 @@ pub(super) fn case() -> Case {
     .limit("No boundary: mms-vortex-box has walls.")
     .limit("As in mms-vortex-box, all runs take the steps of ν = 0.4999.")
     // One wave across the body.
-    .checks(of_motion(claim, Wave::shear(|_| TAU)))
+    .checks(of_motion(claim, Wave::Shear(|_| TAU)))
     .checks(locking())
     .sweep(LOCKING_CURVE)
     .breaks_down(|r| {

@@ -11,11 +11,8 @@ struct Swirl;
 impl Known for Swirl {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Walls(WallKind::Fixed);
-
-    fn parameters() -> Vec<Parameter> {
-        let own = [STEP_POISSON_RATIO.with_default("0.499")];
-        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.499")], "0.5", &own)
-    }
+    const PARAMETERS: Composed =
+        (&[ENTRY.parameters], &[(POISSON_RATIO, "0.499")], "0.5", &[STEP_POISSON_RATIO.with_default("0.499")]);
 }
 
 pub(super) fn case() -> Case {

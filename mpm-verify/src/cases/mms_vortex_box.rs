@@ -10,11 +10,12 @@ struct Vortex;
 
 impl Known for Vortex {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        let own = [&[STEP_POISSON_RATIO.with_default("0.4999")], &DYNAMIC[..]].concat();
-        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.4999")], "0.5", &own)
-    }
+    const PARAMETERS: Composed = (
+        &[ENTRY.parameters],
+        &[(POISSON_RATIO, "0.4999")],
+        "0.5",
+        &[STEP_POISSON_RATIO.with_default("0.4999"), LUMPED, ALPHA, DELTA, common::TOLERANCE],
+    );
 }
 
 pub(super) fn case() -> Case {

@@ -10,11 +10,8 @@ struct PressedVortex;
 
 impl Known for PressedVortex {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        let own = [STEP_POISSON_RATIO.with_default("0.4999")];
-        all_parameters(ENTRY.parameters, &[(POISSON_RATIO, "0.499")], "0.5", &own)
-    }
+    const PARAMETERS: Composed =
+        (&[ENTRY.parameters], &[(POISSON_RATIO, "0.499")], "0.5", &[STEP_POISSON_RATIO.with_default("0.4999")]);
 }
 
 pub(super) fn case() -> Case {

@@ -11,10 +11,7 @@ struct Ring;
 impl Known for Ring {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Walls(WallKind::Fixed);
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(ANGLE, "0.05")], "0.5", &[STEP_POISSON_RATIO])
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(ANGLE, "0.05")], "0.5", &[STEP_POISSON_RATIO]);
 }
 
 /// Angles (rad) beyond this shear the ring by more than its own thickness.
@@ -45,17 +42,17 @@ pub(super) fn case() -> Case {
     .limit("h″ and with it the body force jumps at the two circles: order two in L2 at best, less in L∞.")
     .limit("At the angle of 45° of the literature the shear reaches 4.8: particles on fixed domains lose touch and nothing converges (set angle=0.7853981633974483).")
     // Half a wave across the ring.
-    .checks(of_motion(claim, Wave::shear(|_| TAU)))
+    .checks(of_motion(claim, Wave::Shear(|_| TAU)))
     .table(tables::own_orders("mms-vortex-ring"))
     .table(tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))))
 }
 
 fn claim(r: &Setup<()>) -> Claim {
-    if r.values.number(ANGLE) > LARGE {
+    if r.number(ANGLE) > LARGE {
         Claim::Stalls(1.0, "shear of 4.8 parts particles by five cells and more")
     } else if r.transfer() != TransferName::Flip {
         Claim::Open(TRANSFER)
-    } else if r.values.number(PPC_PER_DIRECTION) > 2.0 {
+    } else if r.number(PPC_PER_DIRECTION) > 2.0 {
         Claim::Open("runs with more particles end at n32; the band is that of n16 to n64")
     } else {
         Claim::Observed([1.15, 2.15], "the body force jumps at the two circles: order two at best")

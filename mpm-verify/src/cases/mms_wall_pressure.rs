@@ -11,10 +11,7 @@ struct WallPressure;
 
 impl Known for WallPressure {
     const SOLUTION: Solution = ENTRY.build;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(AMPLITUDE, "0.001")], "0.013", &DYNAMIC);
 }
 
 const LARGE: &str = "amplitude=0.05 ppc_per_direction=4";
@@ -39,7 +36,7 @@ pub(super) fn case() -> Case {
     .limit("Compression and extension without shear: mms-vortex-box has the shear.")
     .limit("At ν = 0.3 nothing locks.")
     // Half a wave across the body.
-    .checks(of_motion(claim, Wave::pressure(|_| PI)))
+    .checks(of_motion(claim, Wave::Pressure(|_| PI)))
     .checks([stress_order(claim)])
     .checks(order_in_time())
     .begun(begin::<WallPressure>)

@@ -67,7 +67,7 @@ impl<P: ParameterSet> Setup<P> {
     /// Settings of an implicit run with steps of `dt` (s), with the tolerance that the parameter sets, if there is
     /// one; nothing for another scheme.
     pub(super) fn implicit_settings(&self, dt: f64) -> Option<implicit::Settings> {
-        let number = |p| self.values.number(p);
+        let number = |p| self.number(p);
         let rule = match self.rule()? {
             RuleName::QuasiStatic => TimeRule::Static,
             RuleName::Midpoint => TimeRule::Midpoint { lumped: number(LUMPED) },
@@ -82,7 +82,7 @@ impl<P: ParameterSet> Setup<P> {
     pub(super) fn cfl_number(&self, dimension: usize, half_size: f64) -> Result<f64, Error> {
         let basis = self.basis();
         if !self.values.is(TIME_STEP, AUTO) {
-            return Ok(self.values.number(CFL));
+            return Ok(self.number(CFL));
         }
         mpm_solvers::stable_cfl(basis, dimension, half_size).ok_or_else(|| {
             Error::Input(format!(

@@ -2,9 +2,7 @@
 
 use crate::prelude::*;
 
-pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
-
-pub(super) use crate::exact::common::UNSEEN;
+pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, UNSEEN, YOUNG_MODULUS};
 
 /// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
@@ -14,8 +12,6 @@ pub(super) const AUTO: &str = "auto";
 choices! {
     /// How B-splines meet walls.
     pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
-    /// How the time step follows from the cells.
-    pub(super) enum StepScaling { H = "h", H2 = "h2" }
     /// How the time step is found.
     pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
 }

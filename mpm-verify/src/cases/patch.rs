@@ -100,10 +100,6 @@ fn plan() -> Plan {
 }
 
 impl Setup<Moved> {
-    fn is_affine(&self) -> bool {
-        self.transfer() == TransferName::Apic
-    }
-
     fn gradient<const D: usize>(&self) -> SMatrix<f64, D, D> {
         SMatrix::from_fn(|i, j| self.strain * GRADIENT[i][j])
     }
@@ -142,7 +138,7 @@ fn checks() -> Vec<Check> {
     vec![
         Check::truth("affine", "apic, and flip three cells inside: motion and stress of a constant ∇v exact within what stress moves, moments change and (flip) the lattice strains")
             .when(|b| b.strain > 0.0 && b.damping == 0.0)
-            .when(|b| b.is_affine() || b.scheme == Scheme::flip(b.basis(), b.remedy()))
+            .when(|b| b.transfer() == TransferName::Apic || b.scheme == Scheme::flip(b.basis(), b.remedy()))
             .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
             .unless(|b| (b.remedy() != RemedyName::None).then(|| "an average reaches from the sides to all particles".to_owned()))
             .each([DISPLACEMENT_ERROR, VELOCITY_ERROR, STRESS_ERROR].map(|of| Demand::at_most(of, |b: &Run<Moved>| b.affine_bound())))
@@ -253,7 +249,7 @@ impl<const D: usize> Problem<D> for Moving {
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = self.exact(x, 0.0, self.lag())[1];
         }
-        if self.setup.is_affine() {
+        if self.setup.transfer() == TransferName::Apic {
             let rate = self.setup.gradient::<D>() / DURATION;
             let moment = |x: &[f64; D]| {
                 SMatrix::from_fn(|i, j| rate[(i, j)] * second_moment(self.setup.basis(), x[j] / h) * h * h)

@@ -59,18 +59,18 @@ pub(super) fn spaces(basis: BasisName) -> [Scheme; 3] {
 impl<P: ParameterSet> Setup<P> {
     /// Shear modulus G (Pa) of undeformed material.
     pub(super) fn shear_modulus(&self) -> f64 {
-        self.values.number(common::YOUNG_MODULUS) / (2.0 * (1.0 + self.values.number(common::POISSON_RATIO)))
+        self.number(common::YOUNG_MODULUS) / (2.0 * (1.0 + self.number(common::POISSON_RATIO)))
     }
 
     /// Oedometric modulus M (Pa) of undeformed material.
     pub(super) fn oedometric_modulus(&self) -> f64 {
-        let ratio = self.values.number(common::POISSON_RATIO);
+        let ratio = self.number(common::POISSON_RATIO);
         2.0 * self.shear_modulus() * (1.0 - ratio) / (1.0 - 2.0 * ratio)
     }
 
     /// κ (m²/(Pa s)) of undeformed material, by the parameter `conductivity`.
     pub(super) fn kappa(&self) -> f64 {
-        self.values.number(CONDUCTIVITY) / WATER_WEIGHT
+        self.number(CONDUCTIVITY) / WATER_WEIGHT
     }
 
     /// τ M of a projection by the parameter `projection`; zero without one.
@@ -81,7 +81,7 @@ impl<P: ParameterSet> Setup<P> {
     /// The same in a pressure space.
     pub(super) fn strength_in(&self, space: SpaceName) -> f64 {
         match space {
-            Ppp => self.values.number(PROJECTION) * self.oedometric_modulus() / (2.0 * self.shear_modulus()),
+            Ppp => self.number(PROJECTION) * self.oedometric_modulus() / (2.0 * self.shear_modulus()),
             _ => 0.0,
         }
     }

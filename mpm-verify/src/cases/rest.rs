@@ -23,10 +23,7 @@ impl Known for Incline {
     const SOLUTION: Solution = ENTRY.build;
     const BOUNDARY: Boundary = Boundary::Slope;
     const RESTS: bool = true;
-
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[(CFL, "0.3")], "2", &[])
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[(CFL, "0.3")], "2", &[]);
 }
 
 pub(super) fn case() -> Case {
@@ -62,18 +59,19 @@ pub(super) fn case() -> Case {
 }
 
 fn table(name: &str, set: &'static str) -> ResultTable {
-    let columns = [
-        ("rms distance from rest (m)", DISPLACEMENT_L2, SHORT),
-        ("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT),
-        ("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT),
-        ("pressure at the foot (Pa)", BASE_PRESSURE, fixed(0)),
-        ("last/middle third", KINETIC_GROWTH, SHORT),
-        ("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT),
-    ];
-    tables::metrics(name, set, columns)
+    ResultTable::of(name, move |r| tables::changes(r, set))
+        .by(&[SCHEME])
+        .metric("rms distance from rest (m)", DISPLACEMENT_L2, SHORT)
+        .metric("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT)
+        .metric("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT)
+        .metric("pressure at the foot (Pa)", BASE_PRESSURE, fixed(0))
+        .metric("last/middle third", KINETIC_GROWTH, SHORT)
+        .metric("largest kinetic energy (J/m)", KINETIC_ENERGY_PEAK, SHORT)
 }
 
 fn checks() -> Vec<Check> {
+    // There is no known reason to leave the state of rest.
+    let is_sound = |r: &Run<()>| r.remedy() != FbarRecursive && r.basis() != Bspline3;
     vec![
         mass(),
         Gate::truth("stays", "distance of every particle from rest at most h² |u″|/8, of ρ g sin θ/μ along and ρ g cos θ/M across")
@@ -81,7 +79,7 @@ fn checks() -> Vec<Check> {
             .because("what piecewise linear functions leave of a displacement that is quadratic in depth"),
         Gate::truth("base-pressure", "mean pressure at the foot (1 + ν)/(3 (1 − ν)) ρ g cos θ H within a quarter of a cell's weight")
             .within(BASE_PRESSURE, base_pressure, |r| {
-                let share = 0.25 * r.h / r.values.number(THICKNESS);
+                let share = 0.25 * r.h / r.number(THICKNESS);
                 share * base_pressure(r)
             })
             .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
@@ -91,7 +89,7 @@ fn checks() -> Vec<Check> {
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
         Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
-            .when(|r| is_sound(r) && r.record.work.steps >= ENOUGH)
+            .when(move |r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
         Gate::known_limit("out-of-balance", "cubic splines, and all on the wall's line: distance of a particle from rest above the bound of stays")
@@ -105,28 +103,21 @@ fn checks() -> Vec<Check> {
     ]
 }
 
-/// Whether a scheme has no known reason to leave the state of rest.
-fn is_sound(r: &Run<()>) -> bool {
-    r.remedy() != FbarRecursive && r.basis() != Bspline3
-}
-
 /// Interpolation error (m) of piecewise linear functions for the displacement, whose curvature is ρ g sin θ/μ along the slope
 /// and ρ g cos θ/M across it (1/m).
 fn interpolation(r: &Run<()>) -> f64 {
-    let number = |p| r.values.number(p);
-    let shear = 0.5 * number(YOUNG_MODULUS) / (1.0 + number(POISSON_RATIO));
-    let ratio = number(POISSON_RATIO);
+    let shear = 0.5 * r.number(YOUNG_MODULUS) / (1.0 + r.number(POISSON_RATIO));
+    let ratio = r.number(POISSON_RATIO);
     let oedometric = shear * 2.0 * (1.0 - ratio) / (1.0 - 2.0 * ratio);
-    let (along, across) = number(INCLINATION).to_radians().sin_cos();
-    let weight = number(DENSITY) * number(GRAVITY);
+    let (along, across) = r.number(INCLINATION).to_radians().sin_cos();
+    let weight = r.number(DENSITY) * r.number(GRAVITY);
     r.h.powi(2) * weight * (along / shear).hypot(across / oedometric) / 8.0
 }
 
 /// Mean pressure at the foot (Pa).
 fn base_pressure(r: &Run<()>) -> f64 {
-    let number = |p| r.values.number(p);
-    let ratio = number(POISSON_RATIO);
-    let weight = number(DENSITY) * number(GRAVITY) * number(THICKNESS);
-    let across = weight * number(INCLINATION).to_radians().cos();
+    let ratio = r.number(POISSON_RATIO);
+    let weight = r.number(DENSITY) * r.number(GRAVITY) * r.number(THICKNESS);
+    let across = weight * r.number(INCLINATION).to_radians().cos();
     (1.0 + ratio) / (3.0 * (1.0 - ratio)) * across
 }

@@ -83,33 +83,27 @@ impl Known for CompressibleWave {
     const BOUNDARY: Boundary = Boundary::Vessel;
     const FLUID: bool = true;
     const FREQUENCY: Option<fn(&Parameters) -> f64> = Some(frequency);
-
-    fn parameters() -> Vec<Parameter> {
-        let of_solution = [ENTRY.parameters, &[BULK_MODULUS]].concat();
-        all_parameters(&of_solution, &[(PPC_PER_DIRECTION, "4")], "2.4", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters, &[BULK_MODULUS]], &[(PPC_PER_DIRECTION, "4")], "2.4", &DYNAMIC);
 }
 
 /// Whether what Π can't see is stiffer than the pressure that drives it, by the pressure asked for.
 fn is_held(r: &Setup<()>) -> bool {
-    let number = |p| r.values.number(p);
-    r.remedy() == FbarConsistent && number(HOLD) > 1.0 && number(RELAXATION) == 0.0
+    r.remedy() == FbarConsistent && r.number(HOLD) > 1.0 && r.number(RELAXATION) == 0.0
 }
 
 fn is_short(r: &Setup<()>) -> bool {
-    r.values.number(DURATION) <= TWO_PERIODS
+    r.number(DURATION) <= TWO_PERIODS
 }
 
 /// Largest error of the frequency of a scheme that does not lock.
 fn tolerance(r: &Setup<()>) -> f64 {
-    let kh = PI * r.values.number(HALF_WAVES) / r.values.number(WIDTH) * r.h;
+    let kh = PI * r.number(HALF_WAVES) / r.number(WIDTH) * r.h;
     0.5 * kh * kh + 0.01
 }
 
 /// ρ g H/K: how far the weight compresses the water at the floor.
 fn compression(r: &Setup<()>) -> f64 {
-    let number = |p| r.values.number(p);
-    number(DENSITY) * number(GRAVITY) * number(DEPTH) / number(BULK_MODULUS)
+    r.number(DENSITY) * r.number(GRAVITY) * r.number(DEPTH) / r.number(BULK_MODULUS)
 }
 
 pub(super) fn case() -> Case {
@@ -178,12 +172,11 @@ fn periods(name: &str, labels: &[Label], shows: fn(&Record) -> bool) -> ResultTa
 
 /// Why the frequency of a run is not judged, if it is not.
 fn frequency_unknown(r: &Run<()>) -> Option<String> {
-    let number = |p| r.values.number(p);
     let why = if compression(r) > SLIGHT {
         "the theory is that of slight compressibility: ρ g H is above 1 % of K"
-    } else if number(DURATION) * frequency(&r.values) < 2.0 * TAU {
+    } else if r.number(DURATION) * frequency(&r.values) < 2.0 * TAU {
         "the run is shorter than two periods"
-    } else if number(FLIP) < 1.0 {
+    } else if r.number(FLIP) < 1.0 {
         "a blend with PIC takes the motion"
     } else {
         return None;
@@ -213,7 +206,7 @@ fn checks() -> Vec<Check> {
             .because("½ (kh)² + 1 %"),
         Gate::truth("order", "fbar-consistent with GIMP, no relaxation, hold above the pressure: final rms ln(J/J̄) at most one over the pressures held")
             .when(|r| is_held(r) && r.basis() == Gimp)
-            .at_most(LOG_JACOBIAN_GAP, |r| 1.0 / r.values.number(HOLD))
+            .at_most(LOG_JACOBIAN_GAP, |r| 1.0 / r.number(HOLD))
             .because("the pressure drives it with no more than itself"),
         Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy above its start at most 2 % of the peak kinetic one, half a step and initial sound")
             .when(|r| matches!(r.remedy(), RemedyName::None | FbarConsistent) && r.rule() != Some(RuleName::Newmark))

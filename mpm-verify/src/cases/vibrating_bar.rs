@@ -23,11 +23,8 @@ struct Bar;
 impl Known for Bar {
     const SOLUTION: Solution = between_walls;
     const FREQUENCY: Option<fn(&Parameters) -> f64> = Some(frequency);
-
     /// A hundred periods of 2L/c, c = √((λ + 2μ)/ρ₀), and a little more.
-    fn parameters() -> Vec<Parameter> {
-        all_parameters(ENTRY.parameters, &[], "1.73", &DYNAMIC)
-    }
+    const PARAMETERS: Composed = (&[ENTRY.parameters], &[], "1.73", &DYNAMIC);
 }
 
 fn between_walls(p: &Parameters) -> Result<Box<dyn Exact>, exact::Error> {
@@ -57,7 +54,7 @@ fn resolution(r: &Setup<()>) -> f64 {
 
 /// Largest strain kA: how far the bar is from a linear one.
 fn strain(r: &Setup<()>) -> f64 {
-    wave_number(&r.values) * r.values.number(AMPLITUDE)
+    wave_number(&r.values) * r.number(AMPLITUDE)
 }
 
 /// (1 − square of the frequency over that without a remedy)/(kh)², to leading order, with two particles
@@ -226,8 +223,8 @@ fn checks() -> Vec<Check> {
             .when(|r| r.rule() == Some(RuleName::Newmark) && r.remedy() == RemedyName::None)
             .when(|r| matches!(r.basis(), Linear | Gimp) && moves(&r.values) && resolution(r) < PI)
             .within(ENERGY_END, |r| newmark_leaves(r) - 1.0, |r| {
-                let half_size = 0.5 * r.h / r.values.number(PPC_PER_DIRECTION);
-                let domains = if r.basis() == Gimp { r.values.number(AMPLITUDE) / half_size } else { 0.0 };
+                let half_size = 0.5 * r.h / r.number(PPC_PER_DIRECTION);
+                let domains = if r.basis() == Gimp { r.number(AMPLITUDE) / half_size } else { 0.0 };
                 strain(r) + domains
             })
             .because("the sine is a mode of the lattice of hats between walls: docs/vibrating-bar.md"),
@@ -260,7 +257,7 @@ fn checks() -> Vec<Check> {
 /// Particles carry sin kX v₀ + S(sin kx) d as velocity and S(sin kx) b as acceleration, with S from nodes to particles.
 fn newmark_leaves(r: &Run<()>) -> f64 {
     let (theta, omega, dt) = (resolution(r), frequency(&r.values), r.dt());
-    let [per_cell, alpha, delta] = [PPC_PER_DIRECTION, ALPHA, DELTA].map(|p| r.values.number(p));
+    let [per_cell, alpha, delta] = [PPC_PER_DIRECTION, ALPHA, DELTA].map(|p| r.number(p));
     let places = (0..per_cell as u32).map(|k| (f64::from(k) + 0.5) / per_cell);
     let mean = |of: &dyn Fn(f64) -> f64| places.clone().map(of).sum::<f64>() / per_cell;
     // Shares that nodes see of sin kX, and of fields that come from nodes.
@@ -282,7 +279,7 @@ fn newmark_leaves(r: &Run<()>) -> f64 {
 /// Largest distance of the final energy from the first over it: (kh)², and what velocities half a step behind leave at that
 /// phase ([`offset`]). Another code need not have a time step.
 fn kept_within(r: &Run<()>) -> f64 {
-    let [half, phase] = [0.5 * r.dt(), r.values.number(DURATION)].map(|t| frequency(&r.values) * t);
+    let [half, phase] = [0.5 * r.dt(), r.number(DURATION)].map(|t| frequency(&r.values) * t);
     let offset = if r.is_explicit() { half * ((2.0 * phase - half).sin() + half).abs() } else { 0.0 };
     resolution(r).powi(2) + offset.max(0.0)
 }
@@ -290,7 +287,7 @@ fn kept_within(r: &Run<()>) -> f64 {
 fn of_frequency(r: &Run<()>) -> Finding {
     let why = if feeds_null_space(r) {
         NULL_SPACE
-    } else if r.values.number(DURATION) * frequency(&r.values) < 2.0 * TAU {
+    } else if r.number(DURATION) * frequency(&r.values) < 2.0 * TAU {
         "the run is shorter than two periods"
     } else if is_cubic(r) && r.metric(AMPLITUDE_RATIO) < GONE {
         "less than a twentieth of the wave is left: its late zeros are those of what rings beside it"

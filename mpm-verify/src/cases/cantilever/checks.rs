@@ -14,11 +14,6 @@ const DIVERGED: f64 = 0.02;
 type Beam<'a> = Run<'a, Cantilever>;
 
 impl Beam<'_> {
-    /// Residual of a converged step over the loads.
-    fn residual(&self) -> f64 {
-        self.tolerance.max(self.metric(FORCE_ROUNDING))
-    }
-
     /// Stiffness along the beam, EA/L, over that of its tip, 3EI/L³, times M/2G; and of a rim with its penalty, γ E a step.
     fn stiffnesses(&self) -> f64 {
         let ghost = if self.stabilisation == Stabilised::Ghost { self.ghost } else { 0.0 };
@@ -47,6 +42,8 @@ impl Beam<'_> {
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Cantilever>;
     type Demand = crate::demand::Demand<Cantilever>;
+    // Of a converged step, over the loads.
+    let residual = |b: &Beam| b.tolerance.max(b.metric(FORCE_ROUNDING));
     let mass = 1000.0 * run::VOLUME;
     let stress = STRESSES.iter().map(|&(metric, at)| {
         Demand::known(metric, move |b| {
@@ -62,10 +59,10 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("reaction", "reaction of the clamp equal to the weight within the residual of Newton's method")
             .when(|b| !b.is_unstable())
             // At a stabilised node on the clamp the penalty bears its share.
-            .at_most(REACTION_ERROR, |b| 10.0 * b.residual())
+            .at_most(REACTION_ERROR, move |b| 10.0 * residual(b))
             .because("equilibrium: the residual is at most the tolerance of the loads, or rounding"),
         Check::truth("force-ratio", "out-of-balance force ratio of every step, the paper's Eq. (37), at most the tolerance or the rounding of the stresses")
-            .at_most(FORCE_RATIO, |b| b.residual())
+            .at_most(FORCE_RATIO, residual)
             .because("the criterion of convergence"),
         Check::truth("newton", "stabilised runs of ten steps or more: at most 7 Newton iterations a step, 3 to reach quadratic convergence, 4 from 10⁻¹ to the tolerance")
             .when(|b| b.load_steps >= 10 && !b.is_unstable())

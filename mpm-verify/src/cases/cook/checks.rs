@@ -220,13 +220,6 @@ impl Run<'_, Cook> {
             _ => self.metric(FEM_MID_EDGE_ERROR),
         }
     }
-
-    /// The error that is to fall: with F̄ that of the load at its place. Without a remedy locking outweighs the rim on coarse
-    /// cells and the rim locking on fine ones, so that the error there passes through zero; it stays that of the load on the
-    /// side.
-    fn falling_error(&self) -> f64 {
-        if self.is_free_of_locking() { self.mid_edge_error() } else { self.metric(FEM_MID_EDGE_ERROR) }
-    }
 }
 
 /// The relative error of the mid-edge deflection of a record, with the load at its place.
@@ -417,8 +410,14 @@ fn error_falls(records: &[Record]) -> Vec<Finding> {
     let own = own_runs(records).into_iter().filter(|r| r.remedy() != FbarRecursive);
     let mut ladders = ladders_by(own, Record::scheme);
     ladders.retain(|_, ladder| ladder.len() >= 2);
+    // With F̄ the error of the load at its place. Without a remedy locking outweighs the rim on coarse cells and the rim locking
+    // on fine ones, so that the error there passes through zero; it stays that of the load on the side.
+    let error = |run: Run<Cook>| match run.is_free_of_locking() {
+        true => run.mid_edge_error().abs(),
+        false => run.metric(FEM_MID_EDGE_ERROR).abs(),
+    };
     let worst = |(scheme, ladder): (Scheme, Vec<&Record>)| {
-        let errors: Vec<f64> = Run::<Cook>::all(ladder).map(|run| run.falling_error().abs()).collect();
+        let errors: Vec<f64> = Run::<Cook>::all(ladder).map(error).collect();
         let ratios = errors.windows(2).map(|pair| pair[1] / pair[0].max(REST_NOISE));
         // A run that broke down has no error, and must not be lost among the others.
         let worst = if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(f64::NEG_INFINITY, f64::max) };

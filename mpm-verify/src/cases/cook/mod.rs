@@ -225,9 +225,7 @@ fn tables() -> Vec<ResultTable> {
             false => format!("creeping: {} after {:.0} s", error(r), r.metric(REST_TIME)),
         }
     }
-    fn is_static(r: &Record) -> bool {
-        r.transfer() == TransferName::None
-    }
+    let is_static = |r: &Record| r.transfer() == TransferName::None;
     // Where no run has the case's own time step one with another stands in.
     let is_shown = |r: &Record| is_flip(r) && (r.is_default() || differs_in_step(r));
     let over_levels = |what: &str, text: fn(&Record) -> String| {
@@ -275,7 +273,7 @@ fn tables() -> Vec<ResultTable> {
             .columns(over_ratios("mid-edge error", error_at_rest))
             .columns(over_ratios("checkerboard", noise))
             .least(3),
-        ResultTable::of("cook-static", |r| is_static(r) && r.changes_none_but(&["load_steps"]))
+        ResultTable::of("cook-static", move |r| is_static(r) && r.changes_none_but(&["load_steps"]))
             .by(&[SCHEME, ("load steps", |r| r.parameters.text(common::LOAD_STEPS))])
             .columns(over_levels("mid-edge error of the load at its place", |r| {
                 percent(2).text(checks::mid_edge_error(r))
@@ -283,7 +281,7 @@ fn tables() -> Vec<ResultTable> {
             .column(Column::text("checkerboard, h = 1 m", noise).at("h1"))
             .columns(over_levels("CPU (s)", |r| fixed(1).text(r.time.cpu_s))),
         // Effect of a held rim, of a single step and of a larger load.
-        ResultTable::of("cook-rim", |r| is_static(r) && r.level == "h1")
+        ResultTable::of("cook-rim", move |r| is_static(r) && r.level == "h1")
             .by(&[SCHEME, CHANGED])
             .text("mid-edge error", error)
             .value("of the load at its place", checks::mid_edge_error, percent(2))

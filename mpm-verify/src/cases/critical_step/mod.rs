@@ -98,18 +98,13 @@ fn plan() -> Plan {
         .each(Nightly, "n6", &flip, [1, 3, 4].map(|n| format!("dimension=1 ppc_per_direction={n}")))
 }
 
-impl Setup<Step> {
-    fn is_small_cut(&self) -> bool {
-        self.basis() == Linear && self.layout == Layout::Cut
-    }
-}
-
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Step>;
     type Demand = crate::demand::Demand<Step>;
+    let is_small_cut = |s: &Run<Step>| s.basis() == Linear && s.layout == Layout::Cut;
     vec![
         Check::truth("largest-step", "largest stable step that of linear analysis within 2 %, ten halvings and noise growth; above 0.98 where the program's limit is smaller")
-            .when(|s| s.metric(PREDICTED_CFL) > 0.0 && !s.is_small_cut())
+            .when(move |s| s.metric(PREDICTED_CFL) > 0.0 && !is_small_cut(s))
             .each([
                 Demand::above(CRITICAL_CFL, |_| 1.0 - SEEN).when(|s| s.metric(PREDICTED_CFL) > 1.0),
                 Demand::within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| SEEN * s.metric(PREDICTED_CFL))
@@ -121,7 +116,7 @@ fn checks() -> Vec<Check> {
             .above(CRITICAL_CFL, |s| s.metric(OFFERED_CFL) * (1.0 - 0.5 * SEEN))
             .because("the stiffness of a particle over its share of the nodes' masses bounds that of all"),
         Check::known_limit("small-cut", "linear functions with FLIP, no remedy, cut: largest step that of an isolated node, √(4ε/(2 − ε)), within 2 % and ε")
-            .when(|s| s.is_small_cut() && s.transfer() == TransferName::Flip && s.remedy() == RemedyName::None)
+            .when(move |s| is_small_cut(s) && s.transfer() == TransferName::Flip && s.remedy() == RemedyName::None)
             .within(CRITICAL_CFL, |s| s.metric(PREDICTED_CFL), |s| (SEEN + s.cut) * s.metric(PREDICTED_CFL))
             .because("the force on a node falls with the slope of its function, its mass with the function"),
         Check::known_limit("fed-by-mean-stress", "a wave with a negative stiffness by a mean stress grows at every step, at least as fast as by linear analysis")

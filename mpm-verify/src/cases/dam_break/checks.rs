@@ -44,19 +44,15 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     // too, but keep the water in it.
     let keeps_it =
         run.remedy() == FbarRate && run.h > COARSE && run.has_small_steps() && run.wall_contact == Contact::Separable;
-    let leaves_it = gimp && !keeps_it || run.is_flip() && run.is_fine();
+    let leaves_it = gimp && !keeps_it || run.is_flip() && run.h <= FINE;
     if run.has_to_make_energy() && leaves_it {
         return Some(MAKES_ENERGY);
     }
     let printed = run.remedy() == FbarRecursive;
-    (printed && gimp && run.is_flip() && run.is_fine()).then_some(DRIFTS)
+    (printed && gimp && run.is_flip() && run.h <= FINE).then_some(DRIFTS)
 }
 
 impl Water<'_> {
-    fn is_fine(&self) -> bool {
-        self.h <= FINE
-    }
-
     /// Whether the time step is the case's own, not a larger one.
     fn has_small_steps(&self) -> bool {
         self.cfl < 0.1
@@ -85,7 +81,7 @@ impl Water<'_> {
         // The loss of a step, ½ Σ m |Δv|², grows with it: large ones take more than little that is made.
         let little = self.remedy() == FbarRate && self.basis() == Bspline2 && self.h > COARSE;
         let outweighed = little && !self.has_small_steps();
-        self.averages_differ() && !outweighed && (self.is_flip() || self.is_fine())
+        self.averages_differ() && !outweighed && (self.is_flip() || self.h <= FINE)
     }
 
     /// Whether a run makes energy, as is known of its remedy: it has exceeded the bound, or it has to and is judged for it.
@@ -101,13 +97,9 @@ impl Water<'_> {
         elastic_energy(self.density, self.bulk_modulus) / at_start
     }
 
-    fn is_exact(&self) -> bool {
-        self.start == Rest::Exact
-    }
-
     /// Relative tolerance of forces at rest.
     fn at_rest(&self) -> f64 {
-        if self.is_exact() { AT_REST.0 } else { AT_REST.1 }
+        if self.start == Rest::Exact { AT_REST.0 } else { AT_REST.1 }
     }
 
     /// Bound on the error of the pressure at rest: off by h in layers as thick as h, it is off by h^(3/2) in the mean.
@@ -166,14 +158,14 @@ pub(super) fn checks() -> Vec<Check> {
             .because("hydrostatics"),
         // Averages of averages diffuse the volume by h²/Δt: it takes an exact start and the case's own time step to see it.
         Check::known_limit("creeps", "fbar-recursive from the exact start, CFL below 0.1: force on the floor below the weight by more than 0.1 %, as the water sinks")
-            .when(|w| w.remedy() == FbarRecursive && w.is_exact() && w.has_small_steps())
+            .when(|w| w.remedy() == FbarRecursive && w.start == Rest::Exact && w.has_small_steps())
             .above(Quantity::new(BASE_REACTION_RATIO.name, |w: &Water| 1.0 - w.metric(BASE_REACTION_RATIO)), |w| w.at_rest())
             .because("averages of averages diffuse the volume: docs/column.md"),
         Check::truth("pressure-profile", "pressure behind the gate hydrostatic, rms within 1 % of the floor's at h = 0.25 m, elsewhere as h^(3/2)")
             .at_most(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("hydrostatics"),
         Check::known_limit("smoothed-start", "fbar-recursive, fbar-total from the exact start: pressure after one step off by more than pressure-profile allows: Π(J) ≠ J at floor and surface")
-            .when(|w| w.smooths() && w.is_exact())
+            .when(|w| w.smooths() && w.start == Rest::Exact)
             .above(PRESSURE_PROFILE_ERROR, |w| w.profile_bound())
             .because("Π takes the mean of J over what is there: at floor and surface that lies to one side"),
         Check::truth("front", "FLIP: front within a cell of the inviscid one, rms over t √(g/H) from 0.2 to 0.9")

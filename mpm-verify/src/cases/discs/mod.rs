@@ -128,9 +128,7 @@ fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let values = Parameters::new(&Discs::list(), &spec.set).map_err(Error::from);
-    let setup = values.and_then(|values| Setup::<Discs>::of_spec(spec, &values));
-    let steps = setup.map_or(0, |setup| setup.timing().1);
+    let steps = Setup::<Discs>::of_plan(spec).map_or(0, |setup| setup.timing().1);
     let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
     a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
@@ -201,13 +199,6 @@ impl Run<'_, Discs> {
         self.metric(IMPULSE_OF_A_STEP).max(0.0) <= RESOLVED
     }
 
-    /// Bound on an exchange of energy within a step.
-    fn exchanged(&self) -> f64 {
-        HALF * self.metric(ENERGY_EXCHANGED) + self.rounding()
-    }
-}
-
-impl Setup<Discs> {
     fn is_head_on(&self) -> bool {
         self.offset == 0.0
     }
@@ -265,7 +256,7 @@ fn checks() -> Vec<Check> {
             .because("functions sum to one and their slopes to zero: a uniform motion has no strain and no force"),
         Check::truth("exchange", "explicit, not musl: kinetic and stored energy exceed their start by at most half the change of the stored one in a step")
             .when(|d| d.is_explicit() && d.transfer() != Musl)
-            .at_most(ENERGY_GAIN, |d| d.exchanged())
+            .at_most(ENERGY_GAIN, |d| HALF * d.metric(ENERGY_EXCHANGED) + d.rounding())
             .because("velocities live half a step before places, and transfers only take"),
         Check::truth("restitution", "explicit: the discs part no faster than they met, within the energy exchanged in a step")
             .when(|d| d.is_explicit())

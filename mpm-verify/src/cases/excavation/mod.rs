@@ -130,22 +130,16 @@ pub(super) fn case() -> Case {
         )
         .body([[0.0, 0.0], [2.3, 0.0], [2.3, 0.2], [1.5, 1.0], [0.0, 1.0]])
         .body([[2.3, 0.0], [2.5, 0.0], [2.3, 0.2]])
-        .held([3.5, 0.0], [0.0, 0.0])
-        .held([0.0, 0.0], [0.0, 1.0])
+        .held_along(&[[3.5, 0.0], [0.0, 0.0], [0.0, 1.0]])
         .length([0.0, 1.12], [1.5, 1.12], "1.5 m")
         .length([1.5, 1.12], [2.5, 1.12], "1 m")
         .length([-0.12, 0.0], [-0.12, 1.0], "1 m")
         .note([0.9, 0.5], "clay")
         .note([2.85, 0.2], "taken away"))
-        .cost(cost)
+        // That of the steps and of a factorisation.
+        .cost(|spec| if spec.scheme.rule() == Some(QuasiStatic) { 0.2 } else { 2.0 } * (0.1 / spec.level.h).powi(3))
         .pictures(pictures)
         .tables(tables())
-}
-
-/// Cost of the steps and of a factorisation.
-fn cost(spec: &RunSpec) -> f64 {
-    let steps = if spec.scheme.rule() == Some(QuasiStatic) { 0.1 } else { 1.0 };
-    steps * 2.0 * (0.1 / spec.level.h).powi(3)
 }
 
 fn plan() -> Plan {
@@ -274,10 +268,6 @@ fn differs_by_level(records: &[Record]) -> Vec<Finding> {
         .collect()
 }
 
-fn is_static(r: &Record) -> bool {
-    r.scheme().rule() == Some(RuleName::QuasiStatic)
-}
-
 /// Whether a slope stands, in words.
 fn stands(r: &Record) -> String {
     let carried = r.metric(GRAVITY_CARRIED);
@@ -292,12 +282,13 @@ fn stands(r: &Record) -> String {
 }
 
 fn tables() -> Vec<ResultTable> {
+    let is_static = |r: &Record| r.scheme().rule() == Some(QuasiStatic);
     let columns = [("h0.1", "h = 0.1 m"), ("h0.05", "0.05 m"), ("h0.025", "0.025 m")]
         .map(|(level, title)| Column::text(title, stands).at(level));
     vec![
         // Which slope has an equilibrium.
         ResultTable::new("excavation-equilibria", is_static, &[SCHEME, CHANGED], columns),
-        ResultTable::of("excavation-collapses", |r| !is_static(r))
+        ResultTable::of("excavation-collapses", move |r| !is_static(r))
             .by(&[SCHEME, CHANGED, CELLS])
             .text("stands", stands)
             .metric("run-out (m)", RUNOUT_END, fixed(3))
@@ -306,7 +297,7 @@ fn tables() -> Vec<ResultTable> {
             .metric("E_kin at the end", KINETIC_END, share(2))
             .cpu(),
         // Errors of what is conserved.
-        ResultTable::of("excavation-balances", |r| !is_static(r) && r.level == "h0.05")
+        ResultTable::of("excavation-balances", move |r| !is_static(r) && r.level == "h0.05")
             .by(&[SCHEME, CHANGED])
             .metric("(37) before the cut", FORCE_RATIO_UNCUT, SHORT)
             .metric("reaction off by", REACTION_ERROR, SHORT)

@@ -53,13 +53,6 @@ pub(super) fn breaks_down(record: &Record) -> Option<&'static str> {
     thrown.or(flows.then_some(FLOWS)).or(leaks.then_some(LEAKS))
 }
 
-/// Known motions of a ground under its weight.
-#[derive(Clone, Copy, PartialEq)]
-enum Moves {
-    Creeps,
-    Slowly,
-}
-
 impl Setup<Landslide> {
     /// Most that ground loses when its strength falls at once, over its potential energy: (Δκ)²/(4G) a volume, by which
     /// the work of the last stress on the return misses the mean one's, over ρ g H/3, the least mean of a bank.
@@ -150,18 +143,10 @@ impl Setup<Landslide> {
 
 type Slope<'a> = Run<'a, Landslide>;
 
-fn keeps_moving(c: &Slope) -> Option<Moves> {
+/// Whether a ground is known to move on slowly under its weight.
+fn is_slow(c: &Slope) -> bool {
     let coarse = c.level == COARSE && c.metric(YIELDED_AT_REST) > 0.0;
-    match (c.remedy(), c.basis()) {
-        (FbarRecursive, _) => Some(Moves::Creeps),
-        (FbarConsistent, Bspline2) if coarse => Some(Moves::Slowly),
-        _ => None,
-    }
-}
-
-/// Whether a ground moves in this way where rest is judged.
-fn moves_on(c: &Slope, how: Moves) -> bool {
-    c.never_rests().is_none() && keeps_moving(c) == Some(how)
+    (c.remedy(), c.basis()) == (FbarConsistent, Bspline2) && coarse
 }
 
 /// The reason why a force is not one of rest, of a ground that never rests: it still moves, and velocities over elastic ones
@@ -176,12 +161,13 @@ fn in_space(c: &Slope) -> bool {
 
 /// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
-    [of_rest(), of_energy(), of_slide(), of_width(), of_studies()].into_iter().flatten().collect()
-}
-
-fn of_rest() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
+    type Demand = crate::demand::Demand<Landslide>;
+    const LIMIT: &str = "limit analysis: docs/exact.md";
+    let alike = |metric| Demand::at_most(metric, |_| GROWN_ROUNDING);
+    let off = |metric, tolerance: fn(&Slope) -> f64| Demand::within(metric, |_| 0.0, tolerance).of_scale(|_| 1.0);
     vec![
+        // Rest under the weight.
         Check::bookkeeping("particle-count", "number of particles that of centres strictly inside the face: the paper's 311,250 at h = 0.2 m")
             .when(|c| !c.in_section().is_nan())
             .within(PARTICLES, |c| (c.in_section() * c.metric(PARTICLES_ACROSS)).round(), |_| 0.0)
@@ -197,15 +183,15 @@ fn of_rest() -> Vec<Check> {
         Check::truth("at-rest", "none and fbar-consistent with FLIP and APIC, except slow-motion: kinetic energy of the nodes after the gravity stage below 10⁻⁶ of the stored energy")
             .unless(|c| c.never_rests())
             .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
-            .when(|c| keeps_moving(c).is_none())
+            .when(|c| c.remedy() != FbarRecursive && !is_slow(c))
             .at_most(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("velocities a thousandth of elastic ones"),
         Check::known_limit("creeps", "fbar-recursive: kinetic energy above the bound of at-rest, as averages of averages diffuse the volume")
-            .when(|c| moves_on(c, Moves::Creeps))
+            .when(|c| c.never_rests().is_none() && c.remedy() == FbarRecursive)
             .above(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("averages of averages diffuse the volume: docs/column.md"),
         Check::known_limit("slow-motion", "fbar-consistent with quadratic splines at h = 0.5 m, toe yielded: kinetic energy above the bound of at-rest")
-            .when(|c| moves_on(c, Moves::Slowly))
+            .when(|c| c.never_rests().is_none() && is_slow(c))
             .above(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("seen where the toe has yielded"),
         Check::truth("overburden", "vertical stress far from the face the weight above, rms within 2 % of γ H, or a fifth of a cell's weight")
@@ -219,12 +205,7 @@ fn of_rest() -> Vec<Check> {
             .above(OVERBURDEN_ERROR, |c| c.overburden())
             .above(CHECKERBOARD_AT_REST, |_| CHECKERBOARD)
             .because("standard MPM locks: Zhao et al. 2023, Figure 15"),
-    ]
-}
-
-fn of_energy() -> Vec<Check> {
-    type Check = CheckOf<Landslide>;
-    vec![
+        // Energy.
         Check::truth("energy-not-gained", "all with FLIP: kinetic and potential energy and stress work never grow")
             .unless(|c| (c.transfer() != TransferName::Flip).then(|| "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'".to_owned()))
             .at_most(ENERGY_GAIN, |_| ROUNDING)
@@ -244,13 +225,7 @@ fn of_energy() -> Vec<Check> {
             )
             .of_scale(|_| 1.0)
             .because("a band of cells smears what it shears over its width"),
-    ]
-}
-
-fn of_slide() -> Vec<Check> {
-    type Check = CheckOf<Landslide>;
-    const LIMIT: &str = "limit analysis: docs/exact.md";
-    vec![
+        // The slide.
         Check::truth("stands", "all, reduction a tenth below the lower bound of limit analysis: less than a hundredth of the ground moves by H/20")
             .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those of a face at 45° under a long crest".to_owned()))
             .when(|c| c.stands())
@@ -264,16 +239,7 @@ fn of_slide() -> Vec<Check> {
             .when(|c| c.must_fail() && c.is_locked())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
-    ]
-}
-
-/// Independence of the width until shear bands form.
-fn of_width() -> Vec<Check> {
-    type Check = CheckOf<Landslide>;
-    type Demand = crate::demand::Demand<Landslide>;
-    let alike = |metric| Demand::at_most(metric, |_| GROWN_ROUNDING);
-    let off = |metric, tolerance: fn(&Slope) -> f64| Demand::within(metric, |_| 0.0, tolerance).of_scale(|_| 1.0);
-    vec![
+        // Independence of the width until shear bands form.
         Check::truth("uniform", "three dimensions: displacement uniform over the width at rest and 0.5 s after the reduction, within 10⁻⁴")
             .when(in_space)
             .each([alike(WIDTH_SPREAD_AT_REST), alike(WIDTH_SPREAD_0_5S).when(|c| c.is_unbroken())])
@@ -290,13 +256,7 @@ fn of_width() -> Vec<Check> {
                     .when(|c| c.is_unbroken() && c.remedy() == RemedyName::None),
             ])
             .because("the same section in plane strain"),
-    ]
-}
-
-/// Influence of the width and of the time step.
-fn of_studies() -> Vec<Check> {
-    type Check = CheckOf<Landslide>;
-    vec![
+        // Influence of the width and of the time step.
         Check::truth(
             "slice",
             "three dimensions: settlement of the crest of a slice at rest that of the full width, within 10⁻⁴",

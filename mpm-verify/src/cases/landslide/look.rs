@@ -106,12 +106,8 @@ impl Look<'_> {
     /// Place (m) beyond which a hundredth of the particles lie.
     pub(super) fn bulk_toe(&self) -> f64 {
         let mut places: Vec<f64> = self.positions.iter().map(|x| x[0]).collect();
-        let ahead = ((AHEAD * places.len() as f64) as usize).min(places.len().saturating_sub(1));
-        if places.is_empty() {
-            return f64::NAN;
-        }
-        let (_, place, _) = places.select_nth_unstable_by(ahead, |a, b| b.total_cmp(a));
-        *place
+        places.sort_by(|a, b| b.total_cmp(a));
+        places.get((AHEAD * places.len() as f64) as usize).copied().unwrap_or(f64::NAN)
     }
 
     /// Places in the columns of the particles in the middle of the width whose reference passes.

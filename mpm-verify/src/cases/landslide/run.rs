@@ -233,7 +233,7 @@ impl<const D: usize> Slide<D> {
 /// Places (m) in the section, in seeding order.
 fn positions<const D: usize>(run: &dyn Simulation<D>) -> Vec<[f64; 2]> {
     let p = run.particles();
-    p.seeded(|k| section_of(&p.position[k]))
+    p.seeded(|k| [p.position[k][0], p.position[k][1]])
 }
 
 fn plastic_strain<const D: usize>(run: &mut dyn Simulation<D>) -> Vec<f64> {
@@ -249,11 +249,6 @@ fn moved<const D: usize>(run: &dyn Simulation<D>) -> Vec<f64> {
         squares.sum::<f64>().sqrt()
     };
     p.seeded(distance)
-}
-
-/// The place in the section.
-fn section_of<const D: usize>(x: &[f64; D]) -> [f64; 2] {
-    [x[0], x[1]]
 }
 
 /// A breakdown, with time and steps of the strengths that held before since the release.
@@ -281,7 +276,7 @@ impl<const D: usize> Problem<D> for Slide<D> {
         // A wrong reduced strength is an error before anything moves.
         setup.strength(setup.reduction)?;
         let places = setup.start_at(ground.seed());
-        Ok(Self { setup, ground, reference: places.iter().map(section_of).collect() })
+        Ok(Self { setup, ground, reference: places.iter().map(|x| [x[0], x[1]]).collect() })
     }
 
     fn unseen(&self) -> Seen {

@@ -88,16 +88,10 @@ impl Setup<Mandel> {
     /// Largest distances of the solution of the difference equations from the series, where errors are measured.
     pub(super) fn errors_of_equations(&self) -> Slab {
         let (exact, first) = (self.exact(), self.first_measured());
-        let steps = (1..=self.steps).zip(self.of_run());
-        let none = Slab { centre: 0.0, settlement: 0.0, bulge: 0.0 };
-        steps.skip(first as usize - 1).fold(none, |most, (k, b)| {
-            let a = exact.at(f64::from(k) * self.step());
-            Slab {
-                centre: most.centre.max((a.centre - b.centre).abs()),
-                settlement: most.settlement.max((a.settlement - b.settlement).abs()),
-                bulge: most.bulge.max((a.bulge - b.bulge).abs()),
-            }
-        })
+        let steps = (1..=self.steps).zip(self.of_run()).skip(first as usize - 1);
+        let pairs: Vec<_> = steps.map(|(k, own)| (own, exact.at(f64::from(k) * self.step()))).collect();
+        let most = |of: fn(&Slab) -> f64| pairs.iter().map(|(a, b)| (of(a) - of(b)).abs()).fold(0.0, f64::max);
+        Slab { centre: most(|s| s.centre), settlement: most(|s| s.settlement), bulge: most(|s| s.bulge) }
     }
 
     /// The peak of the series, and its loss between steps.

@@ -26,29 +26,23 @@ const DISPERSION: f64 = 0.8;
 /// Roundings in the mass of a particle.
 const ROUNDINGS: f64 = 10.0;
 
-/// A motion as its bounds see it.
+/// A motion as its bounds see it: how it travels, and its wave number k (1/m) by the parameters.
 #[derive(Clone, Copy)]
-pub(in crate::cases) struct Wave {
-    /// Wave number k (1/m) by the parameters.
-    pub(in crate::cases) number: fn(&Parameters) -> f64,
-    /// Whether it travels by shear, or by pressure.
-    shear: bool,
+pub(in crate::cases) enum Wave {
+    Shear(fn(&Parameters) -> f64),
+    Pressure(fn(&Parameters) -> f64),
 }
 
 impl Wave {
-    /// A wave of shear of this wave number.
-    pub(in crate::cases) const fn shear(number: fn(&Parameters) -> f64) -> Self {
-        Self { number, shear: true }
-    }
-
-    /// A wave of pressure of this wave number.
-    pub(in crate::cases) const fn pressure(number: fn(&Parameters) -> f64) -> Self {
-        Self { number, shear: false }
+    /// k (1/m).
+    pub(in crate::cases) fn number(&self, p: &Parameters) -> f64 {
+        let (Self::Shear(number) | Self::Pressure(number)) = self;
+        number(p)
     }
 
     /// kh.
     fn resolution(&self, r: &Run<()>) -> f64 {
-        (self.number)(&r.values) * r.h
+        self.number(&r.values) * r.h
     }
 
     /// 1/|1 − (ω/kc)²|: what a forced vibration makes of a relative error of the stiffness.
@@ -68,11 +62,14 @@ impl Wave {
 
     /// ω/kc.
     fn ratio(&self, r: &Run<()>) -> f64 {
-        let number = |p| r.values.number(p);
+        let number = |p| r.number(p);
         let Ok(law) = NeoHookean::new(number(YOUNG_MODULUS), number(POISSON_RATIO)) else { return f64::NAN };
         let density = number(DENSITY);
-        let speed = if self.shear { (law.mu / density).sqrt() } else { law.wave_speed(density) };
-        number(ANGULAR_FREQUENCY) / ((self.number)(&r.values) * speed)
+        let speed = match self {
+            Self::Shear(_) => (law.mu / density).sqrt(),
+            Self::Pressure(_) => law.wave_speed(density),
+        };
+        number(ANGULAR_FREQUENCY) / (self.number(&r.values) * speed)
     }
 
     /// Reason why no scheme has a bound on its error, if there is one.
@@ -98,7 +95,7 @@ impl Wave {
 
     /// Reason why a scheme is known not to keep the bound, if there is one.
     fn shortcoming(r: &Run<()>, claim: &Claim) -> Option<&'static str> {
-        let nearly_incompressible = r.values.number(POISSON_RATIO) > 0.499;
+        let nearly_incompressible = r.number(POISSON_RATIO) > 0.499;
         if nearly_incompressible && matches!(r.remedy(), FbarTotal | FbarRate) {
             return Some(NULL_SPACE);
         }
@@ -125,7 +122,7 @@ impl Wave {
 
 /// ωΔt.
 fn phase(r: &Run<()>) -> f64 {
-    r.values.number(ANGULAR_FREQUENCY) * r.dt()
+    r.number(ANGULAR_FREQUENCY) * r.dt()
 }
 
 /// The checks of a motion that is a wave: mass, the bound on its error, and the order of its displacement.

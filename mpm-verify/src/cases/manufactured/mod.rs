@@ -63,10 +63,19 @@ pub(super) trait Known: Send + Sync + 'static {
     const RESTS: bool = false;
     /// Angular frequency (rad/s) of a solution that is one standing wave.
     const FREQUENCY: Option<fn(&Parameters) -> f64> = None;
+    /// What its parameters are made of; nothing if it makes the list by itself.
+    const PARAMETERS: Composed = (&[], &[], "", &[]);
 
-    /// All parameters: see [`all_parameters`].
-    fn parameters() -> Vec<Parameter>;
+    /// All parameters.
+    fn parameters() -> Vec<Parameter> {
+        all_parameters(Self::PARAMETERS)
+    }
 }
+
+/// The parameters of a solution, with other defaults for some; the time to run (s) beside what every such problem has; and
+/// the problem's own.
+pub(super) type Composed =
+    (&'static [&'static [Parameter]], &'static [(Parameter, &'static str)], &'static str, &'static [Parameter]);
 
 /// The parameters of a motion, which are read by name: each case composes its own list.
 pub(super) struct Own<K>(PhantomData<K>);
@@ -130,14 +139,7 @@ pub(super) const PPC_PER_DIRECTION: Parameter =
     parameters::PPC_PER_DIRECTION.within(Domain::Integer { least: 1, most: 5 });
 const FLIP: Parameter = parameters::FLIP.meaning("PIC/FLIP blend η of the transfer flip: 1 is FLIP");
 
-/// The parameters of a solution, with other defaults for some; those of every such problem, with the time to run (s);
-/// and the problem's own.
-pub(super) fn all_parameters(
-    of_solution: &[Parameter],
-    defaults: &[(Parameter, &'static str)],
-    duration: &'static str,
-    own: &[Parameter],
-) -> Vec<Parameter> {
+fn all_parameters((of_solution, defaults, duration, own): Composed) -> Vec<Parameter> {
     let numerical = [
         DURATION.with_default(duration),
         CFL,
@@ -149,7 +151,7 @@ pub(super) fn all_parameters(
         RELAXATION,
         HOLD,
     ];
-    let mut all = [of_solution, &numerical, own].concat();
+    let mut all = [&of_solution.concat()[..], &numerical, own].concat();
     set_defaults(&mut all, defaults);
     all
 }

@@ -37,35 +37,31 @@ impl<K: Known> Scenario<K> {
         Ok(Self { setup, solution })
     }
 
-    pub(in crate::cases) fn number(&self, of: Parameter) -> f64 {
-        self.setup.values.number(of)
-    }
-
     /// Steps by the CFL number and the speed of the body's waves, or that at `step_poisson_ratio` if it is larger, so that runs at
     /// several ratios can take the same steps.
     pub(super) fn timing(&self) -> Result<Timing, Error> {
         let is_explicit = self.setup.is_explicit();
-        if is_explicit && self.number(CFL) >= EXPLICIT_CFL {
+        if is_explicit && self.setup.number(CFL) >= EXPLICIT_CFL {
             return Err(Error::Input(format!(
                 "cfl = {} is out of range for the solver explicit; allowed: below {EXPLICIT_CFL}",
-                self.number(CFL)
+                self.setup.number(CFL)
             )));
         }
         let density = self.solution.material().density;
         let mut speed = self.medium().wave_speed(density);
-        let ratio = self.number(STEP_POISSON_RATIO);
+        let ratio = self.setup.number(STEP_POISSON_RATIO);
         if !ratio.is_nan() {
-            let stiff = NeoHookean::new(self.number(YOUNG_MODULUS), ratio)?;
+            let stiff = NeoHookean::new(self.setup.number(YOUNG_MODULUS), ratio)?;
             speed = speed.max(stiff.wave_speed(density));
         }
         let side = self.solution.extent()[0][1] - self.solution.extent()[0][0];
         let finer = if self.setup.values.is(STEP_SCALING, "h2") { COARSEST * self.setup.h / side } else { 1.0 };
-        let half_size = 0.5 / self.number(PPC_PER_DIRECTION);
+        let half_size = 0.5 / self.setup.number(PPC_PER_DIRECTION);
         let cfl = self.setup.cfl_number(self.solution.dimension(), half_size)?;
         let longest = courant_time_step(cfl * finer, self.setup.h, speed);
-        let steps = (self.number(DURATION) / longest).ceil();
-        let dt = self.number(DURATION) / steps;
-        let omega = self.number(ANGULAR_FREQUENCY);
+        let steps = (self.setup.number(DURATION) / longest).ceil();
+        let dt = self.setup.number(DURATION) / steps;
+        let omega = self.setup.number(ANGULAR_FREQUENCY);
         if is_explicit && omega * dt > MOST_PHASE {
             return Err(Error::Input(format!(
                 "angular_frequency = {omega} rad/s is too high to be followed by steps of {dt:e} s, which cfl = {cfl} and \
@@ -98,12 +94,12 @@ impl<K: Known> Scenario<K> {
         }
         let remedy: Box<dyn Remedy<D>> = match setup.remedy().fbar() {
             Some(fbar) if fbar.keeps_unseen() => {
-                let fbar = fbar.relaxing(self.number(RELAXATION));
-                Box::new(fbar.holding(self.number(HOLD), scene.bodies.wave_moduli()[0])?)
+                let fbar = fbar.relaxing(self.setup.number(RELAXATION));
+                Box::new(fbar.holding(self.setup.number(HOLD), scene.bodies.wave_moduli()[0])?)
             }
             _ => setup.remedy().build(),
         };
-        let settings = setup.settings(dt, 0.0)?.transfer(Flip::new(self.number(FLIP))?);
+        let settings = setup.settings(dt, 0.0)?.transfer(Flip::new(self.setup.number(FLIP))?);
         mpm_solvers::solver(setup.scheme, scene, settings.remedy(remedy))
     }
 
@@ -180,10 +176,9 @@ impl<K: Known> Scenario<K> {
 /// Cost of a run, by its particle steps.
 pub(super) fn cost<K: Known>(spec: &RunSpec) -> f64 {
     let particle_steps = || {
-        let values = Parameters::new(&K::parameters(), &spec.set).ok()?;
-        let scenario = Scenario::<K>::new(Setup::of_spec(spec, &values).ok()?).ok()?;
+        let scenario = Scenario::<K>::new(Setup::of_plan(spec).ok()?).ok()?;
         let steps = scenario.timing().ok()?.steps;
-        let (solution, per_cell) = (&scenario.solution, scenario.number(PPC_PER_DIRECTION));
+        let (solution, per_cell) = (&scenario.solution, scenario.setup.number(PPC_PER_DIRECTION));
         let extent = solution.extent();
         let along = |a: usize| (extent[a][1] - extent[a][0]) / spec.level.h * per_cell;
         let particles: f64 = (0..solution.dimension()).map(along).product();

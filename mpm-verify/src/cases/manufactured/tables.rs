@@ -136,13 +136,3 @@ pub(in crate::cases) fn cost(name: &str, levels: [&'static str; 3], shows: fn(&R
     let cfl: Label = ("CFL", |r| r.parameters.text(CFL));
     ResultTable::new(name, shows, &[SCHEME, cfl], levels.into_iter().flat_map(of_level))
 }
-
-/// Metrics of the runs that change `set`, each with its title.
-pub(in crate::cases) fn metrics<const N: usize>(
-    name: &str,
-    set: &'static str,
-    columns: [(&str, Metric, Format); N],
-) -> ResultTable {
-    let columns = columns.map(|(title, metric, format)| Column::metric(title, metric, format));
-    ResultTable::new(name, move |r| changes(r, set), &[SCHEME], columns)
-}

@@ -115,7 +115,7 @@ fn over_ratios(name: &str, value: fn(&Record) -> f64, format: Format) -> ResultT
 
 /// Where the stiffness ε² K of what the average can't see is what locks.
 fn unseen_locks() -> Check {
-    let compressible = |r: &Run<()>| 1.0 - 2.0 * r.values.number(POISSON_RATIO);
+    let compressible = |r: &Run<()>| 1.0 - 2.0 * r.number(POISSON_RATIO);
     let own = |r: &Run<()>| r.basis() == Gimp && r.record.changes_none_but(&[POISSON_RATIO.name]);
     Gate::known_limit("unseen-locks", "GIMP, fbar-consistent beyond 1 − 2ν = ε²: rms error of u that of no remedy at 1 − 2ν′ = (1 − 2ν)/ε², within a tenth")
         .when(move |r| own(r) && is_beyond_unseen(r))
@@ -138,10 +138,10 @@ fn unseen_locks() -> Check {
 }
 
 fn claim(r: &Setup<()>) -> Claim {
-    let squeezed = r.values.number(PRESSURE) > 0.0;
-    let stiff = r.values.number(POISSON_RATIO) > 0.3;
+    let squeezed = r.number(PRESSURE) > 0.0;
+    let stiff = r.number(POISSON_RATIO) > 0.3;
     match (r.basis(), r.remedy()) {
-        (Linear, _) if r.values.number(LOAD_STEPS) > 1.0 => Claim::Open(JUMPS),
+        (Linear, _) if r.number(LOAD_STEPS) > 1.0 => Claim::Open(JUMPS),
         (_, RemedyName::None) if stiff => Claim::Open(LOCKS),
         (Bspline3, _) if squeezed => {
             Claim::Open("two particles per direction don't integrate cubics at a wall that a pressure acts on")

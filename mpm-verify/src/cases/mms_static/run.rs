@@ -60,7 +60,7 @@ pub(super) fn begin(spec: &RunSpec, p: &Parameters) -> Result<Box<dyn Job>, Erro
 impl<const D: usize> Slow<D> {
     /// Duration of a load step (s).
     fn dt(&self) -> f64 {
-        self.0.number(DURATION) / self.0.number(LOAD_STEPS)
+        self.0.setup.number(DURATION) / self.0.setup.number(LOAD_STEPS)
     }
 }
 
@@ -103,7 +103,7 @@ impl<const D: usize> Problem<D> for Slow<D> {
     }
 
     fn progress(&self, steps: &u64, _: &Phase<D>) -> f64 {
-        *steps as f64 / self.0.number(LOAD_STEPS)
+        *steps as f64 / self.0.setup.number(LOAD_STEPS)
     }
 
     fn particles<'a>(&self, _: &u64, mut columns: Columns<'a, D>) -> Columns<'a, D> {

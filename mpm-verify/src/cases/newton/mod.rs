@@ -119,25 +119,20 @@ fn sketch() -> Sketch {
         .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
 }
 
-impl Run<'_, Newton> {
-    /// Whether the load came in one step that was not cut, on functions that have not moved.
-    fn is_whole(&self) -> bool {
-        self.load_steps == 1 && self.metric(PARTS) == 1.0
-    }
-
-    /// Whether a hanging column carries a moderate load in several steps, on smooth functions.
-    fn is_steady(&self) -> bool {
-        !self.stands() && !self.is_whole() && self.load <= STEADY && self.basis() != Linear
-    }
-}
-
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Newton>;
+    // The load came in one step that was not cut, on functions that have not moved.
+    let is_whole = |c: &Run<Newton>| c.load_steps == 1 && c.metric(PARTS) == 1.0;
+    // A hanging column carries a moderate load in several steps, on smooth functions.
+    let is_steady = move |c: &Run<Newton>| !c.stands() && !is_whole(c) && c.load <= STEADY && c.basis() != Linear;
+    let vanishes = |check: Check, metric: Metric| {
+        check.when(move |c| c.has(metric)).within(metric, |_| 0.0, |_| CONVERGED).of_scale(|_| 1.0)
+    };
     vec![
         Check::truth("never-wrong", "a single uncut step, or standing without a remedy, except linear functions: last equilibrium exact within h² times the greatest slope of the stretch")
-            .when(|c| {
+            .when(move |c| {
                 let smooth = c.basis() != Linear && c.remedy() == RemedyName::None;
-                (c.is_whole() || c.stands() && smooth) && c.has(EQUILIBRIUM_ERROR)
+                (is_whole(c) || c.stands() && smooth) && c.has(EQUILIBRIUM_ERROR)
             })
             .at_most(EQUILIBRIUM_ERROR, |c| c.metric(BOUND))
             .because("there is one below the greatest load that the law goes on from; another is far away"),
@@ -146,35 +141,26 @@ fn checks() -> Vec<Check> {
             .at_most(CARRIED, |c| c.metric(BEARABLE) * (1.0 + STIFFER))
             .because("ln λ/λ is at most 1/e"),
         Check::truth("any-steps", "hanging, at most 0.7 of the greatest load, GIMP and splines: any number of steps carries the whole load")
-            .when(|c| c.is_steady())
+            .when(is_steady)
             .within(CARRIED, |_| 1.0, |_| 1.0 - WHOLE)
             .of_scale(|_| 1.0)
             .because("there is an equilibrium at every step, and its law is stable"),
         Check::known_limit("few-particles", "hanging, several steps, F̄ on splines, two particles a cell and direction: a part of the load is carried, as stretched cells are left with fewer")
-            .when(|c| c.is_steady() && c.basis() == Bspline2 && c.remedy() != RemedyName::None)
+            .when(move |c| is_steady(c) && c.basis() == Bspline2 && c.remedy() != RemedyName::None)
             .when(|c| c.ppc_per_direction < 3 && c.metric(CARRIED) < WHOLE)
             .at_most(CARRIED, |_| WHOLE)
             .because("three leave two in a cell: docs/newton.md"),
-        Check::truth("weight", "reaction on the column equal to its weight within Newton's residual")
-            .when(|c| c.has(REACTION_ERROR))
-            .within(REACTION_ERROR, |_| 0.0, |_| CONVERGED)
-            .of_scale(|_| 1.0)
+        vanishes(Check::truth("weight", "reaction on the column equal to its weight within Newton's residual"), REACTION_ERROR)
             .because("equilibrium of the whole body"),
-        Check::truth("gap", "standing: gap of the lowest particles that at which the barrier carries the weight, within Newton's residual")
-            .when(|c| c.has(GAP_ERROR))
-            .within(GAP_ERROR, |_| 0.0, |_| CONVERGED)
-            .of_scale(|_| 1.0)
+        vanishes(Check::truth("gap", "standing: gap of the lowest particles that at which the barrier carries the weight, within Newton's residual"), GAP_ERROR)
             .because("every column of particles is alike, and the barrier's force has one gap"),
-        Check::truth("flow", "standing, yielding: where the exact column flows, vertical and both lateral stresses differ by √(3/2) κ, to what Newton's method leaves")
-            .when(|c| c.has(FLOW_ERROR))
-            .within(FLOW_ERROR, |_| 0.0, |_| CONVERGED)
-            .of_scale(|_| 1.0)
+        vanishes(Check::truth("flow", "standing, yielding: where the exact column flows, vertical and both lateral stresses differ by √(3/2) κ, to what Newton's method leaves"), FLOW_ERROR)
             .because("uniaxial strain: the deviator's direction is fixed, and its norm, of all three components, is κ"),
         quadratic(NEWTON_RATE, |_| 1.0)
-            .when(|c: &Run<Newton>| c.is_whole() && c.remedy() == RemedyName::None)
+            .when(move |c: &Run<Newton>| is_whole(c) && c.remedy() == RemedyName::None)
             .because("the exact tangent, of one kind of motion: docs/newton.md"),
         Check::known_limit("moved-quadrature", "linear functions, hanging, more than one part: equilibrium of the moved particles, off by more than three times the bound of never-wrong")
-            .when(|c| !c.stands() && !c.is_whole() && c.basis() == Linear && c.has(EQUILIBRIUM_ERROR))
+            .when(move |c| !c.stands() && !is_whole(c) && c.basis() == Linear && c.has(EQUILIBRIUM_ERROR))
             .above(EQUILIBRIUM_ERROR, |c| MOVED * c.metric(BOUND))
             .because("slopes that jump where particles cross grid lines: whole cells lose their stress, and tear"),
     ]

@@ -31,7 +31,7 @@ pub(in crate::cases) struct Slope {
 
 impl<P: ParameterSet> Setup<P> {
     pub(in crate::cases) fn slope(&self) -> Slope {
-        let number = |p| self.values.number(p);
+        let number = |p| self.number(p);
         let height = number(HEIGHT);
         Slope {
             section: Section { height, crest: number(CREST), run: height / number(FACE_ANGLE).to_radians().tan() },
@@ -80,7 +80,7 @@ impl<const D: usize> Ground<D> {
     /// The ground of a setup, of this width (m).
     pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, Fault> {
         let (slope, h) = (setup.slope(), setup.h);
-        let number = |p| setup.values.number(p);
+        let number = |p| setup.number(p);
         let spacing = h / number(PPC_PER_DIRECTION);
         // The speed of waves does not depend on the strength.
         let wave_speed = slope.law(Strength::perfect(1.0)?)?.wave_speed(slope.density);

@@ -28,8 +28,7 @@ pub(super) fn sketch(height: &str) -> Sketch {
     let section = Section { height: 5.0, crest: 10.0, run: 5.0 };
     Sketch::of("A slope of clay five metres high with a face at 45°; its crest is ten metres long, up to a smooth wall. The floor is fixed and runs on thirty metres past the toe.")
         .body(section.corners())
-        .held([24.0, 0.0], [0.0, 0.0])
-        .held([0.0, 0.0], [0.0, 5.0])
+        .held_along(&[[24.0, 0.0], [0.0, 0.0], [0.0, 5.0]])
         .length([0.0, 5.7], [10.0, 5.7], "10 m")
         .length([10.0, 5.7], [15.0, 5.7], "5 m")
         .length([-0.7, 0.0], [-0.7, 5.0], height)

@@ -32,13 +32,9 @@ impl Cloud<'_> {
         self.is_plain() && self.h < COARSE
     }
 
-    fn per_direction(&self) -> f64 {
-        self.ppc_per_direction as f64
-    }
-
     /// Error of the motion by the dispersion of functions.
     fn bound(&self) -> f64 {
-        let number = (VORTEX.number)(&self.record.parameters);
+        let number = VORTEX.number(&self.record.parameters);
         let of_cells = DISPERSION * (number * self.h).powi(2);
         // E/ρ is 1 m²/s².
         let speed = (0.5 / (1.0 + self.poisson_ratio)).sqrt();
@@ -52,7 +48,7 @@ impl Cloud<'_> {
 
     /// Twelve times the variance of the centre of mass of a cell, of a judged run.
     fn centre(&self) -> Option<f64> {
-        self.is_judged().then(|| centre_of(self.layout, self.per_direction()))?
+        self.is_judged().then(|| centre_of(self.layout, self.ppc_per_direction as f64))?
     }
 
     /// The run of the same scheme and level with another layout and number of particles, all else the same.

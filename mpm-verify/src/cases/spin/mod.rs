@@ -15,8 +15,6 @@ const ROUNDING: f64 = 1e-9;
 const FEW: f64 = 2.0;
 /// Order of the losses of FLIP.
 const ORDER: f64 = 2.0;
-/// Half of the angular momentum at the start.
-const HALF: f64 = 0.5;
 
 parameters! {
     struct Disc {
@@ -93,9 +91,7 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
 }
 
 fn cost(spec: &RunSpec) -> f64 {
-    let values = Parameters::new(&<Disc as crate::parameter::ParameterSet>::list(), &spec.set).map_err(Error::from);
-    let disc = values.and_then(|values| Spin::new(Setup::of_spec(spec, &values)?));
-    let steps = disc.map_or(0, |disc| disc.steps);
+    let steps = Setup::of_plan(spec).and_then(Spin::new).map_or(0, |disc| disc.steps);
     1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
 
@@ -186,7 +182,7 @@ fn checks() -> Vec<Check> {
             .because("a lumped mass beside the rim lies off its node: FLIP keeps the nodes' angular momentum, not the particles'"),
         Check::known_limit("filters-spin-down", "PIC and xpic2, ten turns and more: loss of half or more of the angular momentum")
             .when(|d| (d.flip < 1.0 || d.is_of(Xpic2)) && d.is_long())
-            .at_most(ANGULAR_MOMENTUM_END, |_| HALF)
+            .at_most(ANGULAR_MOMENTUM_END, |_| 0.5)
             .because("a node beside the rim turns as fast as the mass that it sees, which lies further in; a filter hands that to the particles in every step"),
         Check::known_limit("gimp-swells", "gimp with apic, ten turns and more: mean stretch of the last half above the exact one by more than h/R of it")
             .when(|d| d.basis() == Gimp && d.is_of(Apic) && d.is_long())

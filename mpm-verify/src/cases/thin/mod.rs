@@ -132,14 +132,6 @@ impl Beam<'_> {
         angle * angle / 6.0 + SECTIONS.max(0.095 * sheared)
     }
 
-    fn is_predicted(&self) -> bool {
-        self.metric(PREDICTED_RATIO).is_finite()
-    }
-
-    fn is_plain(&self) -> bool {
-        self.remedy() == RemedyName::None
-    }
-
     fn is_spline(&self) -> bool {
         matches!(self.basis(), Bspline2 | Bspline3)
     }
@@ -162,12 +154,12 @@ fn checks() -> Vec<Check> {
     };
     vec![
         Check::truth("as-predicted", "linear functions and splines, no remedy, midpoint with lumped=0: frequency that of the discrete bending stiffness within (βh)²/6 + 0.002, β the wave number")
-            .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.is_predicted())
+            .when(|b| b.rule() == Some(RuleName::Midpoint) && b.lumped == 0.0 && b.basis() != Gimp && b.has(PREDICTED_RATIO))
             .unless(|b| b.fades())
             .within(FREQUENCY_RATIO, |b| b.metric(PREDICTED_RATIO), |b| b.slack() * b.metric(PREDICTED_RATIO))
             .because("mass of the particles, stiffness by docs/thin.md; along the beam cells err by (βh)²/12, sections shear by Cowper's coefficient or evenly"),
         Check::truth("no-stiffer", "frequency at most the predicted one, within the tolerance of as-predicted")
-            .when(|b| b.is_predicted())
+            .when(|b| b.has(PREDICTED_RATIO))
             .unless(|b| b.fades())
             .at_most(Quantity::new(FREQUENCY_RATIO.name, |b: &Beam| b.frequency()), |b| (1.0 + b.slack()) * b.metric(PREDICTED_RATIO))
             .because("lumping adds inertia; functions that see a hair of the beam and averages of the volume change take stiffness"),
@@ -177,11 +169,11 @@ fn checks() -> Vec<Check> {
             .at_most(|_| 1.0 + READ)
             .because("an average of the volume change stores no more energy than the volume change"),
         Check::known_limit("locks", "linear functions without a remedy at ν ≥ 0.49, one and two cells: frequency above 1.5 times the exact one")
-            .when(|b| b.basis() == Linear && b.is_plain() && b.level != "t4" && b.poisson_ratio >= STIFF)
+            .when(|b| b.basis() == Linear && b.remedy() == RemedyName::None && b.level != "t4" && b.poisson_ratio >= STIFF)
             .above(FREQUENCY_RATIO, |_| LOCKED)
             .because("within a cell the depth can't change as it bends, at the price of M and not of E′"),
         Check::known_limit("two-particles", "splines without a remedy, one cell with two particles over the depth: frequency below 0.9 of the exact one")
-            .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.is_plain())
+            .when(|b| b.is_spline() && b.ppc_per_direction == 2 && b.level == "t1" && b.remedy() == RemedyName::None)
             .at_most(FREQUENCY_RATIO, |_| SOFT)
             .because("two particles have three quarters of the second moment of the section"),
         averaged(
@@ -196,7 +188,7 @@ fn checks() -> Vec<Check> {
 /// The order of each spline without a remedy whose faces lie on grid lines, over all levels.
 fn orders(records: &[Record]) -> Vec<Finding> {
     let runs: Vec<Beam> = Run::all(records).collect();
-    let judged = |b: &Beam| b.is_spline() && b.is_plain() && b.shift == 0.0;
+    let judged = |b: &Beam| b.is_spline() && b.remedy() == RemedyName::None && b.shift == 0.0;
     let orders = orders_from(&runs, judged, "t1", FREQUENCY_ERROR);
     let orders = orders.filter_map(|(first, order)| Some((about("order", first), order?)));
     let why = "the second moment of the particles and the turning of the nodes' mass both err by h²";

@@ -93,16 +93,8 @@ fn plan() -> Plan {
 }
 
 impl Setup<Translate> {
-    fn is_slow(&self) -> bool {
-        self.speed < SLOW
-    }
-
     fn is_plain(&self) -> bool {
         self.remedy() == RemedyName::None && self.transfer() == TransferName::Flip && self.flip == 1.0
-    }
-
-    fn is_musl(&self) -> bool {
-        self.transfer() == TransferName::Musl
     }
 
     /// Largest share of the mean stress that is kept by functions which lose stress.
@@ -110,7 +102,7 @@ impl Setup<Translate> {
         match self.basis() {
             Linear => Some(0.5),
             Bspline2 => Some(0.9),
-            Bspline3 if self.is_slow() => Some(0.99),
+            Bspline3 if self.speed < SLOW => Some(0.99),
             _ => None,
         }
     }
@@ -128,19 +120,19 @@ fn checks() -> Vec<Check> {
             .within(STRESS_KEPT, |_| 1.0, |_| ROUNDING)
             .because("domains that tile the body integrate a gradient of hats exactly: a uniform stress pushes no node"),
         Check::truth("noise", "other functions with flip and no remedy: noise of the stress at most twice the response to the lattice's forces")
-            .when(|b| b.is_plain() && b.basis() != Gimp && b.is_slow())
+            .when(|b| b.is_plain() && b.basis() != Gimp && b.speed < SLOW)
             .at_most(STRESS_NOISE, |b| (SWING * b.metric(PREDICTED_NOISE)).max(ROUNDING))
             .because("forces of a wave that the lattice makes, over the stiffness that it meets; twice of what begins at once"),
         Check::truth("no-energy-gain", "all but musl: kinetic and stored energy rise by rounding at most")
-            .when(|b| !b.is_musl())
+            .when(|b| b.transfer() != TransferName::Musl)
             .at_most(ENERGY_GAIN, |_| ROUNDING)
             .because("what a stress gives to the velocities that its errors make is taken from what it stores"),
         Check::known_limit("crossing", "linear functions and splines, a hundred cells: mean stress falls by more than a half (linear), a tenth (quadratic), a hundredth (cubic, slow)")
-            .when(|b| b.cells >= 100.0 && !b.is_musl() && b.most_kept().is_some())
+            .when(|b| b.cells >= 100.0 && b.transfer() != TransferName::Musl && b.most_kept().is_some())
             .at_most(STRESS_KEPT, |b| b.most_kept().unwrap_or(f64::NAN))
             .because("a uniform stress works on the velocities that its own quadrature error makes, and the transfer takes what it gives them"),
         Check::known_limit("musl-gains", "linear functions with musl, a hundred cells: energy rises by more than a tenth of the kinetic energy")
-            .when(|b| b.basis() == Linear && b.is_musl() && b.cells >= 100.0)
+            .when(|b| b.basis() == Linear && b.transfer() == TransferName::Musl && b.cells >= 100.0)
             .above(ENERGY_GAIN, |_| 0.1)
             .because("the stress' work is that of velocities mapped again, not that of the nodes' forces"),
     ]

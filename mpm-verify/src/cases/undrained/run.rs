@@ -44,17 +44,8 @@ fn force([x, y]: &[f64; 2]) -> [f64; 2] {
     [of_shear(*x, *y) - PI * (PI * x).sin() * (PI * y).cos(), -of_shear(*y, *x) - PI * (PI * x).cos() * (PI * y).sin()]
 }
 
-#[derive(Debug, Clone, Copy)]
-enum Pair {
-    Linear,
-    Gimp,
-    Splines,
-    SplinesAndLinear,
-}
-
 pub(super) struct Body {
     setup: Setup<Undrained>,
-    pair: Pair,
     grid: Grid<2>,
     pressure_grid: Grid<2>,
     cloud: Cloud,
@@ -77,13 +68,11 @@ impl Analysis for Body {
             ))
         };
         let fitted = setup.domain == Domain::Square;
-        let pair = match (setup.basis(), setup.pressure_functions) {
-            (Linear, PressureFunctions::Same) => Pair::Linear,
-            (Gimp, PressureFunctions::Same) => Pair::Gimp,
-            (Bspline2, PressureFunctions::Same) if fitted => Pair::Splines,
-            (Bspline2, PressureFunctions::Linear) if fitted => Pair::SplinesAndLinear,
+        match (setup.basis(), setup.pressure_functions) {
+            (Linear | Gimp, PressureFunctions::Same) => {}
+            (Bspline2, _) if fitted => {}
             _ => return Err(refused()),
-        };
+        }
         let n = (1.0 / setup.h).round() as usize;
         let grid = Grid::new(setup.h, [Axis::walls(0.0, n); 2])?;
         let pressure_grid = match setup.space() {
@@ -101,7 +90,7 @@ impl Analysis for Body {
             true => vec![[s, 0.0], [s, 1.0], [0.0, s], [1.0, s]],
             false => vec![[s, 0.0]],
         });
-        Ok(Self { pair, grid, pressure_grid, cloud, held: held.collect(), fitted, setup })
+        Ok(Self { grid, pressure_grid, cloud, held: held.collect(), fitted, setup })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -114,11 +103,11 @@ impl Analysis for Body {
     }
 
     fn analyse(&self, _: usize) -> Result<Found, Fault> {
-        match self.pair {
-            Pair::Linear => self.ghosted::<Hats>(),
-            Pair::Gimp => self.ghosted::<Means>(),
-            Pair::Splines => self.plain::<Splines, Splines>(),
-            Pair::SplinesAndLinear => self.plain::<Splines, Hats>(),
+        match (self.setup.basis(), self.setup.pressure_functions) {
+            (Linear, _) => self.ghosted::<Hats>(),
+            (Gimp, _) => self.ghosted::<Means>(),
+            (_, PressureFunctions::Same) => self.plain::<Splines, Splines>(),
+            (_, PressureFunctions::Linear) => self.plain::<Splines, Hats>(),
         }
     }
 
@@ -153,10 +142,10 @@ impl Analysis for Body {
     }
 
     fn work(&self, found: &[Found]) -> WorkDone {
-        let functions = match self.pair {
-            Pair::Linear => 4 + 4,
-            Pair::Gimp | Pair::Splines => 9 + 9,
-            Pair::SplinesAndLinear => 9 + 4,
+        let functions = match (self.setup.basis(), self.setup.pressure_functions) {
+            (Linear, _) => 4 + 4,
+            (_, PressureFunctions::Same) => 9 + 9,
+            (_, PressureFunctions::Linear) => 9 + 4,
         };
         let particles = self.cloud.places.len() as u64;
         visited(found.len(), [particles, particles * functions])

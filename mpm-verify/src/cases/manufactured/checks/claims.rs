@@ -52,7 +52,7 @@ pub(in crate::cases) fn is_sound(remedy: RemedyName) -> bool {
 /// Whether what `fbar-consistent` can't see is as stiff as if the body had a Poisson's ratio above zero, so that it locks as
 /// without a remedy: docs/mms-static.md.
 pub(in crate::cases) fn is_beyond_unseen(r: &Setup<()>) -> bool {
-    let compressible = 1.0 - 2.0 * r.values.number(POISSON_RATIO);
+    let compressible = 1.0 - 2.0 * r.number(POISSON_RATIO);
     r.remedy() == FbarConsistent && compressible < UNSEEN * UNSEEN
 }
 
@@ -68,8 +68,8 @@ fn is_other_transfer(r: &Setup<()>) -> bool {
 
 /// Convergence between rollers, with or without a pressure gradient at the walls.
 pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
-    let crosses = r.values.number(AMPLITUDE) >= CROSSING;
-    if r.values.number(PPC_PER_DIRECTION) == 1.0 {
+    let crosses = r.number(AMPLITUDE) >= CROSSING;
+    if r.number(PPC_PER_DIRECTION) == 1.0 {
         return Claim::Open("one particle per cell doesn't integrate what the basis can represent");
     }
     if r.values.is(WALL, WALL_LINE) {
@@ -96,7 +96,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
     if is_other_transfer(r) {
         return Claim::Open(TRANSFER);
     }
-    let is_bar = r.values.number(DIMENSION) == 1.0;
+    let is_bar = r.number(DIMENSION) == 1.0;
     match (r.basis(), r.remedy()) {
         (Gimp, RemedyName::None) if is_bar => Claim::Observed(
             [1.4, 2.6],
@@ -113,7 +113,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
 }
 
 /// The vortex in a box: its profile falls from one to a half over 0.16 m, a sixth of a wave.
-pub(in crate::cases) const VORTEX: Wave = Wave::shear(|_| 6.5);
+pub(in crate::cases) const VORTEX: Wave = Wave::Shear(|_| 6.5);
 
 pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
     if r.basis() == Linear {
@@ -126,7 +126,7 @@ pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
         return Claim::Open("particles cross ten cells: the quadrature error of two per direction is a floor");
     }
     if feeds_null_space(r) {
-        let shears_only = r.values.number(PRESSURE).is_nan();
+        let shears_only = r.number(PRESSURE).is_nan();
         let clear = shears_only && r.remedy() == FbarRate && matches!(r.basis(), Gimp | Bspline2);
         return if clear { Claim::Stalls(1.0, NULL_SPACE) } else { Claim::Open(NULL_SPACE) };
     }

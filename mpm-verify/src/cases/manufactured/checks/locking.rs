@@ -44,7 +44,7 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
 }
 
 fn ratio(r: &Run<()>) -> f64 {
-    r.values.number(POISSON_RATIO)
+    r.number(POISSON_RATIO)
 }
 
 /// Whether two runs differ in Poisson's ratio alone, the second at [`COMPRESSIBLE`].
