@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 /// Where they lie, from this package's folder: what computes, and not what judges, reports or draws.
-pub(crate) const SOURCES: [&str; 19] = [
+pub(crate) const SOURCES: [&str; 21] = [
     "../.cargo/config.toml",
     "../Cargo.lock",
     "../Cargo.toml",
@@ -17,6 +17,8 @@ pub(crate) const SOURCES: [&str; 19] = [
     "references",
     "solvers/Cargo.toml",
     "solvers/src",
+    "surfaces/Cargo.toml",
+    "surfaces/src",
     CASES,
     "src/cases/manufactured/mod.rs",
     "src/job.rs",

@@ -18,7 +18,7 @@ pub struct Gap<const D: usize> {
 
 /// The surface of a rigid body of any shape, at time zero.
 pub trait Surface<const D: usize>: Debug + Send + Sync {
-    /// What lies at `x` (m) sees of it: none beyond `within` (m), and beside it, where a part of its rim is nearest.
+    /// The surface as what lies at `x` (m) sees it: none beyond `within` (m), and beside it, where a part of its rim is nearest.
     fn gap(&self, x: &[f64; D], within: f64) -> Option<Gap<D>>;
 
     /// Whether a part of it is within `distance` (m) of `x` (m).

@@ -86,7 +86,7 @@ impl<const D: usize> DeadForce<D> {
     }
 
     /// A traction (Pa) times the `amplitude` on the undeformed free sides of the particles whose reference
-    /// position satisfies `select`. Of a side's force 3/2 act on its particle and −1/2 on the one behind, if there is one,
+    /// position satisfies `select`. Its particle takes 3/2 of a side's force and the one behind −1/2, if there is one,
     /// so that its moment is that of the side.
     pub fn traction(
         traction: [f64; D],

@@ -36,28 +36,39 @@ columns = {
 }
 
 
-def array(name, components, numbers):
-    packed = struct.pack(f"<{len(numbers)}f", *numbers)
-    small = zlib.compress(packed, 9)
-    head = struct.pack("<4I", 1, len(packed), 0, len(small))
-    data = base64.b64encode(head).decode() + base64.b64encode(small).decode()
-    return f'<DataArray type="Float32" Name="{name}" NumberOfComponents="{components}" format="binary">{data}</DataArray>'
+def packed(numbers):
+    whole = struct.pack(f"<{len(numbers)}f", *numbers)
+    small = zlib.compress(whole, 9)
+    return struct.pack("<4I", 1, len(whole), 0, len(small)) + small
 
 
-places = [p for (x, y), a, b in zip(start, ux, uy) for p in (x + a, y + b, 0.0)]
+places = [p for x, y in start for p in (x, y, 0.0)]
+blocks = [packed(places)] + [packed(column) for column in columns.values()]
+offsets = [sum(map(len, blocks[:k])) for k in range(len(blocks))]
+
+
+def array(name, components, k):
+    return (
+        f'<DataArray type="Float32" Name="{name}" NumberOfComponents="{components}" format="appended" '
+        f'offset="{offsets[k]}"/>'
+    )
+
+
 parts = [
     '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian" header_type="UInt32" '
     'compressor="vtkZLibDataCompressor">',
     f'<UnstructuredGrid><Piece NumberOfPoints="{len(start)}" NumberOfCells="0">',
-    f"<Points>{array('place', 3, places)}</Points>",
+    f"<Points>{array('place', 3, 0)}</Points>",
     "<PointData>",
-    *(array(name, 1, column) for name, column in columns.items()),
+    *(array(name, 1, k + 1) for k, name in enumerate(columns)),
     "</PointData>",
     "<Cells>",
     '<DataArray type="Int32" Name="connectivity" format="ascii"></DataArray>',
     '<DataArray type="Int32" Name="offsets" format="ascii"></DataArray>',
     '<DataArray type="UInt8" Name="types" format="ascii"></DataArray>',
-    "</Cells></Piece></UnstructuredGrid></VTKFile>",
+    "</Cells></Piece></UnstructuredGrid>",
+    '<AppendedData encoding="raw">',
 ]
 out.mkdir(parents=True, exist_ok=True)
-(out / "particles.vtu").write_text("\n".join(parts) + "\n")
+text = "\n".join(parts).encode() + b"\n_" + b"".join(blocks) + b"\n</AppendedData></VTKFile>\n"
+(out / "particles.vtu").write_bytes(text)

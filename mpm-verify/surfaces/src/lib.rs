@@ -142,7 +142,7 @@ impl<const D: usize> Surface<D> for Mesh<D> {
 /// Triangles of an STL file, binary or text: their corners (m).
 ///
 /// # Errors
-/// A file that is cut, or is none.
+/// A file that is cut, or of another format.
 pub fn triangles(stl: &[u8]) -> std::io::Result<Vec<[[f64; 3]; 3]>> {
     let mut bytes = stl.to_vec();
     // One in binary may begin as one in text does, and has as many bytes as its triangles need.

@@ -55,7 +55,7 @@ fn a_level_mesh_is_a_plane_face() {
     assert!(mesh.is_near(&[3.3, 0.4], 0.5) && !mesh.is_near(&[3.3, 0.4], 0.4999));
 }
 
-/// What is inside a body is nearer to the outside of any body about it: the gap to a disc or ball of radius one lies
+/// A body inside another one is farther from what is outside, and less deep: the gap to a disc or ball of radius one lies
 /// between that to what the facets are about and that to the disc or ball inside them.
 fn is_round<const D: usize>(mesh: &Mesh<D>, sagitta: f64) {
     for k in 0..2000 {

@@ -42,7 +42,7 @@ impl Beam<'_> {
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Cantilever>;
     type Demand = crate::demand::Demand<Cantilever>;
-    // Of a converged step, over the loads.
+    // A converged step has this residual, over the loads.
     let residual = |b: &Beam| b.tolerance.max(b.metric(FORCE_ROUNDING));
     let mass = 1000.0 * run::VOLUME;
     let stress = STRESSES.iter().map(|&(metric, at)| {

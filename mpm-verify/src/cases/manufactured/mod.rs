@@ -63,7 +63,7 @@ pub(super) trait Known: Send + Sync + 'static {
     const RESTS: bool = false;
     /// Angular frequency (rad/s) of a solution that is one standing wave.
     const FREQUENCY: Option<fn(&Parameters) -> f64> = None;
-    /// What its parameters are made of; nothing if it makes the list by itself.
+    /// Parts of its parameters; nothing if it makes the list by itself.
     const PARAMETERS: Composed = (&[], &[], "", &[]);
 
     /// All parameters.

@@ -2,7 +2,6 @@
 
 use super::fault::{Line, Source};
 use super::form::{AmplitudeForm, Form, Name, NotNegative, SupportForm};
-use super::setup::Setup;
 use crate::cases::prelude::*;
 
 /// Heads of the columns of a table in a file.
@@ -76,13 +75,5 @@ fn read(source: &Source, table: &Line<AmplitudeForm>) -> Result<Amplitude, Error
             }
         }
         _ => Err(source.at(table, "an amplitude has either knots or file")),
-    }
-}
-
-impl<const D: usize> Setup<D> {
-    /// The factor over the time of a phase.
-    pub(super) fn over_time(&self, rise: NotNegative, name: &Option<Name>) -> Amplitude {
-        let table = name.as_ref().and_then(|name| self.amplitudes.get(&name.0));
-        table.cloned().unwrap_or(Amplitude::Rise(rise.0))
     }
 }

@@ -1,4 +1,4 @@
-//! What acts on the bodies of a scene: gravity, forces, tractions, and sides that let waves out.
+//! Loads on the bodies of a scene: gravity, forces, tractions, and sides that let waves out.
 
 use super::fault::{Line, Source};
 use super::form::{LoadForm, Name, NotNegative};

@@ -5,7 +5,8 @@ use super::body::{check_bodies, other_laws};
 use super::contact::{Surface, contact, surface};
 use super::fault::{Line, Source};
 use super::form::{
-    AxisForm, ConductivityForm, EndForm, EndsForm, FaceForm, Finite, Form, SupportForm, WallForm, WallsForm,
+    AxisForm, ConductivityForm, EndForm, EndsForm, FaceForm, Finite, Form, Name, NotNegative, SupportForm, WallForm,
+    WallsForm,
 };
 use super::phase::{Phase, phases, scheme};
 use super::shape::{Seeds, ends, holds, seed, vector};
@@ -34,7 +35,7 @@ pub(super) struct Setup<const D: usize> {
     pub(super) scheme: Scheme,
     pub(super) phases: Vec<Phase>,
     pub(super) amplitudes: Amplitudes,
-    /// Of every contact.
+    /// The surfaces of all contacts; a plane face has no such surface.
     pub(super) surfaces: Vec<Option<Surface<D>>>,
     pub(super) grid: Grid<D>,
     pub(super) seeds: Seeds<D>,
@@ -183,6 +184,12 @@ impl<const D: usize> Setup<D> {
             before + last(&amplitude, *end)
         });
         speeds(velocity_m_s).map(|speed| speed.map_or(0.0, |speed| speed * time))
+    }
+
+    /// The factor over the time of a phase.
+    pub(super) fn over_time(&self, rise: NotNegative, name: &Option<Name>) -> Amplitude {
+        let table = name.as_ref().and_then(|name| self.amplitudes.get(&name.0));
+        table.cloned().unwrap_or(Amplitude::Rise(rise.0))
     }
 
     /// Particles per cell.
