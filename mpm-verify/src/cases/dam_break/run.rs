@@ -48,7 +48,11 @@ impl Dam {
     /// Rows of the series that a gravity stage has behind the gate.
     fn stage_rows(&self) -> usize {
         let rows = (STAGE / ROW).round() as usize;
-        if self.setup.start == Rest::GravityStage { rows } else { 0 }
+        if self.is_staged() { rows } else { 0 }
+    }
+
+    fn is_staged(&self) -> bool {
+        self.setup.start == Rest::GravityStage
     }
 
     pub(super) fn released(&self) -> Begun<2> {
@@ -77,11 +81,7 @@ impl Dam {
         let places = perturbed(places, self.setup.seed as u64);
         let (volume, half_size) = (self.spacing * self.spacing, [0.5 * self.spacing; 2]);
         let particles = Particles::new(places, volume, self.water.density, half_size)?;
-        Ok(if self.setup.start == Rest::GravityStage {
-            particles
-        } else {
-            particles.deformed(|x| compressed(&self.water, x))
-        })
+        Ok(if self.is_staged() { particles } else { particles.deformed(|x| compressed(&self.water, x)) })
     }
 
     /// From the exact start: holds the water behind the gate for a while, to measure it. The flow begins anew.
@@ -240,7 +240,7 @@ impl Problem<2> for Dam {
             return self.released();
         }
         // Behind the gate: exactly at rest, or without weight yet.
-        let (rise, damping) = if self.setup.start == Rest::GravityStage { (RISE, DAMPING) } else { (0.0, 0.0) };
+        let (rise, damping) = if self.is_staged() { (RISE, DAMPING) } else { (0.0, 0.0) };
         let scene = self.tank(rise)?.constrain(gate_of(self.setup.basis(), self.setup.h));
         solver(self.setup.scheme, scene, self.settings(damping)?)
     }
