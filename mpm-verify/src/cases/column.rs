@@ -77,26 +77,6 @@ pub(super) fn foreign() -> Foreign {
     }
 }
 
-/// Whether a mode that the average can't see grows with this scheme until it rules the motion.
-fn grows(r: &Run<()>) -> bool {
-    r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate)
-}
-
-/// Whether a run is long enough to distinguish a drift from the ringing of the start.
-fn is_long(r: &Run<()>) -> bool {
-    r.record.work.steps >= ENOUGH
-}
-
-/// Whether the column rests with this scheme: GIMP and quadratic splines with any remedy except the creeping one.
-fn rests(r: &Run<()>) -> bool {
-    r.basis() != Bspline3 && r.remedy() != FbarRecursive
-}
-
-/// ρ g (Pa/m).
-fn weight(r: &Run<()>) -> f64 {
-    r.number(DENSITY) * r.number(GRAVITY)
-}
-
 /// Whether the pressure ρ c v of the motion is as large as what the pressure at the floor may be off.
 fn rings(r: &Run<()>) -> bool {
     let speed = (2.0 * r.metric(KINETIC_ENERGY_PEAK) / r.metric(MASS)).sqrt();
@@ -105,16 +85,24 @@ fn rings(r: &Run<()>) -> bool {
 }
 
 fn checks() -> Vec<Check> {
+    // A mode that the average can't see grows until it rules the motion.
+    let grows = |r: &Run<()>| r.basis() == Gimp && matches!(r.remedy(), FbarTotal | FbarRate);
+    // Long enough to distinguish a drift from the ringing of the start.
+    let is_long = |r: &Run<()>| r.record.work.steps >= ENOUGH;
+    // The column rests: GIMP and quadratic splines with any remedy except the creeping one.
+    let rests = |r: &Run<()>| r.basis() != Bspline3 && r.remedy() != FbarRecursive;
+    // ρ g (Pa/m).
+    let weight = |r: &Run<()>| r.number(DENSITY) * r.number(GRAVITY);
     vec![
         mass(),
         Gate::truth("base-pressure", "pressure at the floor ρ g H within the hydrostatic pressure of a quarter cell")
-            .unless(|r| (weight(r) == 0.0).then(|| "nothing has weight".to_owned()))
+            .unless(move |r| (weight(r) == 0.0).then(|| "nothing has weight".to_owned()))
             .unless(|r| rings(r).then(|| "the column rings, and with it the pressure".to_owned()))
-            .unless(|r| {
+            .unless(move |r| {
                 let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
                 creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())
             })
-            .within(BASE_PRESSURE, |r| weight(r) * r.number(HEIGHT), |r| 0.25 * r.h * weight(r))
+            .within(BASE_PRESSURE, move |r| weight(r) * r.number(HEIGHT), move |r| 0.25 * r.h * weight(r))
             .because("ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall"),
         Gate::known_limit("creep", "fbar-recursive: mean J of a cell drifts by more than 10⁻³ per 10⁵ steps")
             .when(|r| r.basis() != Bspline3 && r.remedy() == FbarRecursive)
@@ -122,15 +110,15 @@ fn checks() -> Vec<Check> {
             .because("Eq. (26) diffuses J with D = ½ s² h²/Δt"),
         Gate::truth("no-creep", "GIMP and quadratic splines except fbar-recursive, at least 10⁵ steps: mean J̄ of every cell drifts by at most 10⁻⁶ per 10⁵ steps")
             .when(rests)
-            .unless(|r| (!is_long(r)).then(|| "the ringing of the start is not a drift".to_owned()))
+            .unless(move |r| (!is_long(r)).then(|| "the ringing of the start is not a drift".to_owned()))
             .at_most(J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations"),
         Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: kinetic energy of the last third more than 100 times that of the middle third")
-            .when(|r| rests(r) && is_long(r) && grows(r))
+            .when(move |r| rests(r) && is_long(r) && grows(r))
             .above(KINETIC_GROWTH, |_| GROWN)
             .because("what Π can't see has no stiffness, and under pressure uGIMP's quadrature error makes it negative (docs/remedy.md)"),
         Gate::truth("no-growth", "GIMP, quadratic splines, not fbar-recursive, from 10⁵ steps: peak kinetic energy of the last third at most the middle third's, and rounding")
-            .when(|r| rests(r) && is_long(r) && !grows(r))
+            .when(move |r| rests(r) && is_long(r) && !grows(r))
             .at_most(KINETIC_GROWTH, |r| 1.0 + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; a random walk of last bits excepted"),
     ]

@@ -66,12 +66,10 @@ pub(super) fn case() -> Case {
             .note([0.5, 0.8], "noise")
             .length([0.0, -0.1], [1.0, -0.1], "6 h, periodic"))
         .cost(|_| 0.1)
-        .begun(|spec, values| {
-            match Setup::<Step>::of_spec(spec, values)?.dimension {
-                1 => begin::<1, Trials<1>>(spec, values),
-                2 => begin::<2, Trials<2>>(spec, values),
-                _ => begin::<3, Trials<3>>(spec, values),
-            }
+        .begun(|spec, values| match Setup::<Step>::of_spec(spec, values)?.dimension {
+            1 => begin::<1, Trials<1>>(spec, values),
+            2 => begin::<2, Trials<2>>(spec, values),
+            _ => begin::<3, Trials<3>>(spec, values),
         })
         .tables(tables())
 }

@@ -55,10 +55,6 @@ pub(super) struct Trials<const D: usize> {
 }
 
 impl<const D: usize> Trials<D> {
-    fn is_cut(&self) -> bool {
-        self.setup.layout == Layout::Cut
-    }
-
     /// Half the size of a particle, in cells.
     fn half_size(&self) -> f64 {
         0.5 / self.setup.ppc_per_direction as f64
@@ -83,7 +79,7 @@ impl<const D: usize> Trials<D> {
         let h = self.setup.h;
         let stretch = self.setup.stretch;
         let along = |axis: usize| {
-            let shift = if axis == 0 && self.is_cut() { self.shift() } else { 0.0 };
+            let shift = if axis == 0 && self.setup.layout == Layout::Cut { self.shift() } else { 0.0 };
             let places = self.places(axis);
             (0..PERIOD).flat_map(|c| places.iter().map(move |x| (x + c as f64 + shift) * h)).collect()
         };
@@ -100,7 +96,7 @@ impl<const D: usize> Trials<D> {
             *f *= 1.0 + STRAIN * noise(k);
         }
         let axis = |a: usize| match a {
-            0 if self.is_cut() => Axis::open(0.0, PERIOD + 2 * ROOM),
+            0 if self.setup.layout == Layout::Cut => Axis::open(0.0, PERIOD + 2 * ROOM),
             _ => Axis::periodic(0.0, PERIOD),
         };
         let grid = Grid::new(h, std::array::from_fn(axis))?;
@@ -208,7 +204,7 @@ impl<const D: usize> Problem<D> for Trials<D> {
         let [stable, _] = seen.range();
         let mut values = vec![(CRITICAL_CFL, stable.exp())];
         let setting = self.setting();
-        if self.is_cut() {
+        if self.setup.layout == Layout::Cut {
             // A node of its own: one function sees one particle with the weight ε, so that g = τ²/ε and Π̂ = ε.
             let cut = self.setup.cut;
             if self.scheme.basis == Linear {

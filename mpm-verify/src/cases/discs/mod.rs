@@ -21,8 +21,6 @@ const GAINED: f64 = 1e-3;
 const MIRRORED: f64 = 1e-6;
 /// Share of the impulse in a step from which on a collision is not resolved: five steps of the effective contact.
 const RESOLVED: f64 = 0.2;
-/// Half of the exchange of a step.
-const HALF: f64 = 0.5;
 /// Range of the mean stress that is drawn (Pa).
 const STRESS_RANGE: f64 = 100.0;
 
@@ -109,7 +107,11 @@ pub(super) fn case() -> Case {
         .headline(FREE_UNTIL, "free until (s)", 1.0, 1)
         .watched(&["energy_change", "distance"])
         .sketch(sketch())
-        .cost(cost)
+        .cost(|spec| {
+            let steps = Setup::<Discs>::of_plan(spec).map_or(0, |setup| setup.timing().1);
+            let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
+            a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
+        })
         .pictures(|gallery| energies(gallery).and_then(|()| contact(gallery)))
         .tables(tables())
         .breaks_down(|r| match r.scheme() {
@@ -125,12 +127,6 @@ pub(super) fn case() -> Case {
 
 fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
     Setup::number_of(r, of)
-}
-
-fn cost(spec: &RunSpec) -> f64 {
-    let steps = Setup::<Discs>::of_plan(spec).map_or(0, |setup| setup.timing().1);
-    let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
-    a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
 }
 
 fn plan() -> Plan {
@@ -256,11 +252,11 @@ fn checks() -> Vec<Check> {
             .because("functions sum to one and their slopes to zero: a uniform motion has no strain and no force"),
         Check::truth("exchange", "explicit, not musl: kinetic and stored energy exceed their start by at most half the change of the stored one in a step")
             .when(|d| d.is_explicit() && d.transfer() != Musl)
-            .at_most(ENERGY_GAIN, |d| HALF * d.metric(ENERGY_EXCHANGED) + d.rounding())
+            .at_most(ENERGY_GAIN, |d| 0.5 * d.metric(ENERGY_EXCHANGED) + d.rounding())
             .because("velocities live half a step before places, and transfers only take"),
         Check::truth("restitution", "explicit: the discs part no faster than they met, within the energy exchanged in a step")
             .when(|d| d.is_explicit())
-            .at_most(RESTITUTION, |d| 1.0 + HALF * d.metric(ENERGY_EXCHANGED) + d.rounding())
+            .at_most(RESTITUTION, |d| 1.0 + 0.5 * d.metric(ENERGY_EXCHANGED) + d.rounding())
             .because("the motion of the centres of mass is part of the energy"),
         Check::truth("turned", "head on: each disc turns back, the relative velocity changes by more than its start")
             .when(|d| d.is_head_on())

@@ -155,10 +155,6 @@ fn moves_too_fast(c: &Slope, tolerance: f64) -> Option<String> {
     c.never_rests().filter(|_| c.metric(KINETIC_SHARE_AT_REST).sqrt() > 0.5 * tolerance)
 }
 
-fn in_space(c: &Slope) -> bool {
-    c.record.discretisation.dim == 3
-}
-
 /// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
@@ -241,11 +237,11 @@ pub(super) fn checks() -> Vec<Check> {
             .because("standard MPM locks: Zhao et al. 2023, Figure 14"),
         // Independence of the width until shear bands form.
         Check::truth("uniform", "three dimensions: displacement uniform over the width at rest and 0.5 s after the reduction, within 10⁻⁴")
-            .when(in_space)
+            .when(|c| c.record.discretisation.dim == 3)
             .each([alike(WIDTH_SPREAD_AT_REST), alike(WIDTH_SPREAD_0_5S).when(|c| c.is_unbroken())])
             .because("the problem is that of its section"),
         Check::truth("plane-strain", "three dimensions: crest's settlement at rest that of plane strain within 10⁻⁴ without F̄ (and 0.5 s after the reduction), 2 % with fbar-consistent")
-            .when(in_space)
+            .when(|c| c.record.discretisation.dim == 3)
             .each([
                 off(OFF_PLANE_STRAIN_AT_REST, |c| match c.remedy() {
                     RemedyName::None => GROWN_ROUNDING,

@@ -11,9 +11,28 @@ const LEVEL: Label = ("level", |r| {
 pub(super) fn in_plane() -> Vec<ResultTable> {
     let toe = |r: &Record| fixed(2).unit(" m").text(r.metric(RUNOUT_2_5S));
     let is_main = |r: &Record| is_flip(r) && r.is_default() && r.level == "h0.1";
+    let range = |r: &Record| {
+        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
+        format!("{least} … {most}")
+    };
     vec![
         ResultTable::by_remedy("landslide", &REMEDIES, is_main, runout),
-        results(),
+        ResultTable::of("landslide-2d", |r| r.is_default() && is_flip(r) && r.status == Status::Ok)
+            .by(&[SCHEME, CELLS])
+            .metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2))
+            .metric("at 5.5 s (m)", RUNOUT_END, fixed(2))
+            .metric("of the bulk (m)", BULK_RUNOUT_END, fixed(2))
+            .metric("settlement (m)", SETTLEMENT_END, fixed(2))
+            .metric("failed", FAILED_SHARE_END, share(0))
+            .metric("fails at (s)", FAILURE_TIME, fixed(2))
+            .metric("retrogression (m)", RETROGRESSION_END, fixed(1))
+            .text("bands (rearmost, m)", bands)
+            .metric("σ_m − Πσ_m at rest (γH)", CHECKERBOARD_AT_REST, fixed(3))
+            .metric("at 2.5 s", CHECKERBOARD_2_5S, fixed(3))
+            .text("J", range)
+            .metric("ln(J/J̄) rms", LOG_JACOBIAN_GAP, fixed(2))
+            .value("lost", lost, share(0))
+            .cpu(),
         studies(),
         transfers("landslide-transfers", &[PAIR, CELLS], &["3", "4"], toe),
     ]
@@ -44,29 +63,6 @@ fn bands(r: &Record) -> String {
         rear if rear.is_finite() => format!("{count} ({})", fixed(1).text(rear)),
         _ => count,
     }
-}
-
-fn results() -> ResultTable {
-    let range = |r: &Record| {
-        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
-        format!("{least} … {most}")
-    };
-    ResultTable::of("landslide-2d", |r| r.is_default() && is_flip(r) && r.status == Status::Ok)
-        .by(&[SCHEME, CELLS])
-        .metric("run-out at 2.5 s (m)", RUNOUT_2_5S, fixed(2))
-        .metric("at 5.5 s (m)", RUNOUT_END, fixed(2))
-        .metric("of the bulk (m)", BULK_RUNOUT_END, fixed(2))
-        .metric("settlement (m)", SETTLEMENT_END, fixed(2))
-        .metric("failed", FAILED_SHARE_END, share(0))
-        .metric("fails at (s)", FAILURE_TIME, fixed(2))
-        .metric("retrogression (m)", RETROGRESSION_END, fixed(1))
-        .text("bands (rearmost, m)", bands)
-        .metric("σ_m − Πσ_m at rest (γH)", CHECKERBOARD_AT_REST, fixed(3))
-        .metric("at 2.5 s", CHECKERBOARD_2_5S, fixed(3))
-        .text("J", range)
-        .metric("ln(J/J̄) rms", LOG_JACOBIAN_GAP, fixed(2))
-        .value("lost", lost, share(0))
-        .cpu()
 }
 
 /// The toe at 2.5 s and when it fails, for what may tip the slope.

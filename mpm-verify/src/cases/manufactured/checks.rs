@@ -55,7 +55,8 @@ impl Wave {
         if !r.is_implicit() {
             return 0.0;
         }
-        let phase = phase(r);
+        // ωΔt.
+        let phase = r.number(ANGULAR_FREQUENCY) * r.dt();
         let driven = self.ratio(r).powi(2) * self.amplification(r) / 6.0;
         2.0 * phase * phase * (1.0 / 8.0 + driven)
     }
@@ -82,7 +83,7 @@ impl Wave {
             return Some("steps as long as these follow nothing of the motion");
         }
         // Error of central differences, beside that of the cells: θ²/12 of the driven motion.
-        let (phase, kh) = (phase(r), self.resolution(r));
+        let (phase, kh) = (r.number(ANGULAR_FREQUENCY) * r.dt(), self.resolution(r));
         if kh >= PI {
             return Some("cells carry no wave that is shorter than two of them");
         }
@@ -118,11 +119,6 @@ impl Wave {
         let of_cells = DISPERSION * kh * kh * self.amplification(r).max(1.0);
         of_cells + self.error_of_steps(r)
     }
-}
-
-/// ωΔt.
-fn phase(r: &Run<()>) -> f64 {
-    r.number(ANGULAR_FREQUENCY) * r.dt()
 }
 
 /// The checks of a motion that is a wave: mass, the bound on its error, and the order of its displacement.

@@ -135,12 +135,9 @@ impl<const D: usize> Ground<D> {
             g
         }));
         let body = Bodies::new(self.slope.law(strength)?, particles)?;
-        Ok(Scene::new(self.grid()?, body).load(weight).constrain_all(walls::<D>()))
+        // The fixed base, then rollers at the back and, in three dimensions, at the sides.
+        let walls = [clamp(1, End::Lo), roller(0, End::Lo), roller(2, End::Lo), roller(2, End::Hi)];
+        let walls = walls.into_iter().filter(|wall| wall.axis < D);
+        Ok(Scene::new(self.grid()?, body).load(weight).constrain_all(walls))
     }
-}
-
-/// The fixed base, then rollers at the back and, in three dimensions, at the sides.
-fn walls<const D: usize>() -> Vec<Wall> {
-    let sides = if D == 3 { vec![roller(2, End::Lo), roller(2, End::Hi)] } else { Vec::new() };
-    [vec![clamp(1, End::Lo), roller(0, End::Lo)], sides].concat()
 }

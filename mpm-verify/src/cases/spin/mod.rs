@@ -71,7 +71,10 @@ pub(super) fn case() -> Case {
             .load([-RADIUS, 0.0], [-RADIUS, -0.5])
             .note([0.0, 0.0], "0.1 c at the rim")
             .length([-RADIUS, -1.15], [RADIUS, -1.15], "2 m"))
-        .cost(cost)
+        .cost(|spec| {
+            let steps = Setup::of_plan(spec).and_then(Spin::new).map_or(0, |disc| disc.steps);
+            1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
+        })
         .table(table())
         .breaks_down(breaks_down)
 }
@@ -88,11 +91,6 @@ fn breaks_down(r: &Record) -> Option<&'static str> {
         (TransferName::Apic, Gimp, FbarConsistent) if hundred => Some(SWELLS),
         _ => None,
     }
-}
-
-fn cost(spec: &RunSpec) -> f64 {
-    let steps = Setup::of_plan(spec).and_then(Spin::new).map_or(0, |disc| disc.steps);
-    1e-6 * steps as f64 * (RADIUS / spec.level.h).powi(2)
 }
 
 fn plan() -> Plan {

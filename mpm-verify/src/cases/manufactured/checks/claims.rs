@@ -61,11 +61,6 @@ pub(in crate::cases) fn feeds_null_space(r: &Setup<()>) -> bool {
     matches!(r.remedy(), FbarTotal | FbarRate) && r.h < FED
 }
 
-/// Whether what a run's transfer takes from the velocity is part of its error.
-fn is_other_transfer(r: &Setup<()>) -> bool {
-    matches!(r.transfer(), TransferName::Apic | TransferName::Xpic2)
-}
-
 /// Convergence between rollers, with or without a pressure gradient at the walls.
 pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
     let crosses = r.number(AMPLITUDE) >= CROSSING;
@@ -93,7 +88,7 @@ pub(in crate::cases) fn between_rollers(r: &Setup<()>) -> Claim {
             _ => Claim::Open("the quadrature error of particles that left their lattice is a floor; see the page"),
         };
     }
-    if is_other_transfer(r) {
+    if matches!(r.transfer(), TransferName::Apic | TransferName::Xpic2) {
         return Claim::Open(TRANSFER);
     }
     let is_bar = r.number(DIMENSION) == 1.0;
@@ -119,7 +114,7 @@ pub(in crate::cases) fn of_vortex(r: &Setup<()>) -> Claim {
     if r.basis() == Linear {
         return Claim::Open(JUMPS);
     }
-    if is_other_transfer(r) {
+    if matches!(r.transfer(), TransferName::Apic | TransferName::Xpic2) {
         return Claim::Open(TRANSFER);
     }
     if r.h < FLOOR {

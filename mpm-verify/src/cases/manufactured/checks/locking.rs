@@ -18,7 +18,7 @@ pub(in crate::cases) const LOCKING_CURVE: Sweep = Sweep::of(POISSON_RATIO, "0.5 
 pub(in crate::cases) fn locking() -> [Check; 2] {
     [
         Gate::truth("no-locking", "F̄ except fbar-recursive, not linear, up to 1 − 2ν = ε²: rms error of u at most 1.2 times that at ν = 0.3")
-            .when(|r| ratio(r) != COMPRESSIBLE)
+            .when(|r| r.number(POISSON_RATIO) != COMPRESSIBLE)
             .when(|r| is_sound(r.remedy()) && r.basis() != Linear && !is_beyond_unseen(r))
             .pairs(is_soft_twin, |r, _| about(r), factor)
             .at_most(|_| LOCKING_FREE)
@@ -30,7 +30,7 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
                 let locks = |r: &&Run<()>| {
                     r.remedy() == RemedyName::None
                         && matches!(r.basis(), Linear | Gimp)
-                        && ratio(r) >= 0.499
+                        && r.number(POISSON_RATIO) >= 0.499
                         && r.h == coarsest
                 };
                 let found = runs.iter().filter(locks).filter_map(|r| {
@@ -43,13 +43,9 @@ pub(in crate::cases) fn locking() -> [Check; 2] {
     ]
 }
 
-fn ratio(r: &Run<()>) -> f64 {
-    r.number(POISSON_RATIO)
-}
-
 /// Whether two runs differ in Poisson's ratio alone, the second at [`COMPRESSIBLE`].
 fn is_soft_twin(stiff: &Run<()>, soft: &Run<()>) -> bool {
-    ratio(soft) == COMPRESSIBLE && same_but(POISSON_RATIO.name, stiff, soft)
+    soft.number(POISSON_RATIO) == COMPRESSIBLE && same_but(POISSON_RATIO.name, stiff, soft)
 }
 
 fn factor(stiff: &Run<()>, soft: &Run<()>) -> f64 {
@@ -58,5 +54,5 @@ fn factor(stiff: &Run<()>, soft: &Run<()>) -> f64 {
 
 fn about(r: &Run<()>) -> String {
     let (metric, scheme, level) = (DISPLACEMENT_L2.name, r.scheme, &r.level);
-    format!("{metric} of {scheme} {level} at ν = {} over ν = 0.3", ratio(r))
+    format!("{metric} of {scheme} {level} at ν = {} over ν = 0.3", r.number(POISSON_RATIO))
 }
