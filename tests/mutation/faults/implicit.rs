@@ -20,9 +20,9 @@ pub(crate) const IMPLICIT: [Fault; 30] = [
     },
     Fault {
         name: "held nodes go a sixth further in a step than what holds them",
-        file: "implicit/held.rs",
-        sound: "(at(0.0) + 4.0 * at(0.5) + at(1.0)) / 6.0",
-        broken: "(at(0.0) + 5.0 * at(0.5) + at(1.0)) / 6.0",
+        file: "stage/rigid_nodes.rs",
+        sound: "self.amplitude.integral(time + dt) - self.amplitude.integral(time)",
+        broken: "7.0 / 6.0 * (self.amplitude.integral(time + dt) - self.amplitude.integral(time))",
         seen_by: &[(PRESSED, "elastic-slope")],
     },
     Fault {
