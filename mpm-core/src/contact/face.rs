@@ -163,11 +163,11 @@ impl<const D: usize> RigidFace<D> {
     }
 
     /// Whether what lies at `x` (m), less the face's displacement, is within `distance` (m) of the face along every axis,
-    /// or farther inside a body with a plane face.
+    /// a little farther from a surface, or anywhere inside a body with a plane face.
     pub fn is_near(&self, x: &[f64; D], distance: f64) -> bool {
         match &self.shape {
             Shape::Plane(plane) => plane.is_near(x, distance),
-            Shape::Any(surface) => surface.is_near(x, distance),
+            Shape::Any(surface) => surface.is_near(x, distance * (D as f64).sqrt()),
         }
     }
 }

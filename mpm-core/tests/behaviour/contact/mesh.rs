@@ -52,7 +52,7 @@ fn a_level_mesh_is_a_plane_face() {
     assert_eq!((mesh.gap(&[-3.01, 0.1]), mesh.gap(&[3.01, -0.1])), (None, None));
     assert_eq!((mesh.gap(&[-3.0, 0.1]), mesh.seen_at(&[0.0, 0.5], 0.4)), (Some(0.1), None));
     assert_eq!(square.gap(&[3.01, 0.0, 0.1]), None);
-    assert!(mesh.is_near(&[3.3, 0.4], 0.5) && !mesh.is_near(&[3.3, 0.4], 0.4999));
+    assert!(mesh.is_near(&[3.3, 0.4], 0.4) && !mesh.is_near(&[3.3, 0.4], 0.3));
 }
 
 /// A body inside another one is farther from what is outside, and less deep: the gap to a disc or ball of radius one lies
