@@ -133,6 +133,9 @@ fn normals_are_slopes_of_gaps_and_turn_as_they_say() {
     assert!(faces_edges_corners.iter().all(|count| *count > 100), "{faces_edges_corners:?}");
     let star = [[2.0, 0.0], [0.5, -0.5], [0.0, -2.0], [-1.0, 0.0], [0.0, 2.0], [2.0, 0.0]];
     assert!(slopes_are_those_of_the_gap(&chain(&star))[1] > 100);
+    // A hollow corner is the nearest point of what is inside before it.
+    let inside = chain(&star).gap(&[0.3, -0.3], 9.0).unwrap();
+    assert!((inside.size + 0.08_f64.sqrt()).abs() < 1e-15 && inside.bend[(0, 0)] < 0.0, "{inside:?}");
 }
 
 #[test]
