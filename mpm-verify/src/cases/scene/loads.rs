@@ -25,6 +25,13 @@ impl<const D: usize> Setup<D> {
     /// That a load has as many components as the grid has axes, and that the solver can take it.
     pub(super) fn check_load(&self, source: &Source, load: &Line<LoadForm>) -> Result<(), Error> {
         let (name, numbers) = match load.get_ref() {
+            LoadForm::Gravity { rise_s, phases, .. }
+                if rise_s.0 > 0.0 && self.phases.iter().filter(|phase| acts(phases, &phase.name)).count() > 1 =>
+            {
+                let said = "a gravity that rises in every phase anew: `phases` names one for the rise, and another gravity \
+                            acts in those after it";
+                return Err(source.at(load, said));
+            }
             LoadForm::Gravity { acceleration_m_s2, .. } => ("acceleration_m_s2", acceleration_m_s2),
             LoadForm::Force { total_n, .. } => ("total_n", total_n),
             LoadForm::Traction { traction_pa, axis, .. } => {

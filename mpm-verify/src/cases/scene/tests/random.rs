@@ -88,7 +88,9 @@ fn scene(random: &mut fastrand::Rng) -> String {
         text += &format!("[[supports]]\nnodes = {{ name = \"{axis}\", {within} }}\n");
     }
     let rise = number(random, 0.0, 0.05);
-    text += &format!("[[loads]]\ngravity = {{ acceleration_m_s2 = {}, rise_s = {rise} }}\n", along("0", -2.0));
+    let gravity = |more: &str| format!("[[loads]]\ngravity = {{ acceleration_m_s2 = {}, {more} }}\n", along("0", -2.0));
+    text += &gravity(&format!("rise_s = {rise}, phases = [\"first\"]"));
+    text += &gravity("phases = [\"second\"]");
     if random.bool() {
         let region = format!("on = {{ {up}_m = [0, {height}] }}");
         text += &format!("[[loads]]\nforce = {{ total_n = {}, {region}, rise_s = {rise} }}\n", along("20", -30.0));

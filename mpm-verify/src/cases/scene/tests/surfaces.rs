@@ -166,3 +166,35 @@ fn a_filled_scene_has_its_surface() {
     assert!(filled.contains("file = \"bed.stl\"") && !filled.contains("at_m"), "{filled}");
     assert_eq!(read(folder.path(), &filled, &square()).unwrap().case.scenery.unwrap().filled, filled);
 }
+
+/// The bed bears the weight while it holds the sand. On its steep part, from 0.3 to 0.9 s after the sand is let go, nearly
+/// all of it slips: the force along the bed is μ times that across it, and less where some of it sticks still.
+#[test]
+fn sand_slides_on_bedrock_as_coulomb_has_it() {
+    let (rows, particles) = bodies::rows_of(&shipped("sand-on-bedrock.toml"), 160);
+    let sum = |range: std::ops::Range<usize>| {
+        let count = range.len() as f64;
+        let of = |name: &str| {
+            rows[range.clone()].iter().map(|row| bodies::last(std::slice::from_ref(row), name)).sum::<f64>()
+        };
+        ["bed_x (N/m)", "bed_y (N/m)"].map(|name| of(name) / count)
+    };
+    let column = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    let weight = 631.0 * 0.125 * 0.125 * 1800.0 * 9.81;
+    assert_eq!(column("x").len(), 631);
+    let [_, held] = sum(30..40);
+    assert!((-held / weight - 1.0).abs() < 0.05, "{held} of {weight}");
+    let [x, y] = sum(46..58);
+    let (along, across) = ([12.14, -5.22], [5.22, 12.14]);
+    let share = (along[0] * x + along[1] * y) / (across[0] * x + across[1] * y) / -0.3;
+    assert!((0.9..=1.0).contains(&share), "{share}");
+    let bed = [[-1.0, 10.72], [11.14, 5.5], [15.0, 4.9], [18.0, 3.7], [33.0, 2.4]];
+    for (x, y) in column("x").iter().zip(column("y")) {
+        let side = bed.windows(2).find(|side| *x <= side[1][0]).unwrap();
+        let height = side[0][1] + (x - side[0][0]) * (side[1][1] - side[0][1]) / (side[1][0] - side[0][0]);
+        assert!(*y > height, "{x} {y}");
+    }
+    // Its front has passed the last kink, and is on the bed still.
+    let front = column("x").iter().copied().fold(0.0, f64::max);
+    assert!((18.0..32.0).contains(&front), "{front}");
+}
