@@ -10,6 +10,8 @@ const COMPONENTS: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2),
 /// Newton steps at most, and the residual over the modulus of pressure waves that is rounding.
 const MOST_STEPS: u32 = 30;
 const ROUNDING: f64 = 1e-14;
+/// Sweeps at most that find the singular values.
+const MOST_SWEEPS: usize = 1000;
 /// Singular values of the tangent, over the greatest, that are none: those of shear in a fluid.
 const SINGULAR: f64 = 1e-12;
 
@@ -35,7 +37,8 @@ pub(crate) fn strain_under(law: &dyn AnyLaw, stress: &SymmetricTensor) -> Option
             let of = answer.get(COMPONENTS[row].0, COMPONENTS[row].1).slope;
             if k == l { of[3 * k + l] } else { of[3 * k + l] + of[3 * l + k] }
         };
-        let singular = SMatrix::<f64, 6, 6>::from_fn(slope).svd(true, true);
+        // Without a bound it goes on for ever where a law far too soft for the stress has left all numbers.
+        let singular = SMatrix::<f64, 6, 6>::from_fn(slope).try_svd(true, true, 5.0 * f64::EPSILON, MOST_SWEEPS)?;
         let step = singular.solve(&lacking, SINGULAR * singular.singular_values.max()).ok()?;
         for ((i, j), step) in COMPONENTS.into_iter().zip(step.iter()) {
             stretch[(i, j)] += step;

@@ -115,7 +115,7 @@ fn nodes_slide_along_a_region_without_ends_and_every_row_may_have_a_snapshot() {
 fn what_is_wrong_is_named_with_line_and_key() {
     // What is replaced, by what; what the error must say.
     let wrong: [(&str, &str, &[&str]); 35] = [
-        ("rise_s = 0.4, phases = [\"weight\"]", "rise_s = 0.4", &["line 24", "rises in every phase anew"]),
+        ("rise_s = 0.4, phases = [\"weight\"]", "rise_s = 0.4", &["line 23", "rises in every phase anew"]),
         ("phases = [\"weight\"]", "phases = []", &["line 24", "no phase where one or more"]),
         ("row_s = 0.02\nsnapshot_rows = 50", "row_s = 5e-4\nsnapshot_rows = 1", &["[output]", "apart", "0.001 s"]),
         (

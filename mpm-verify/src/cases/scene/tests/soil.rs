@@ -100,6 +100,7 @@ fn ground_that_cannot_begin_so_is_named_with_its_line() {
             &["one gravity"],
         ),
         ("k0 = 0.5", "k0 = -0.5", &["k0", "-0.5"]),
+        ("young_modulus_pa = 5e6", "young_modulus_pa = 0.1", &["stress", "without flow"]),
         ("friction_deg = 30", "friction_deg = 95", &["friction", "below π/2"]),
         ("friction_deg = 30", "friction_deg = 30\ndilation_deg = 31", &["dilation", "angle of friction"]),
         ("friction_deg = 30", "friction_deg = 30\nmatched = \"cone\"", &["cone", "plane-strain"]),

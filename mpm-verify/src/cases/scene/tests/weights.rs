@@ -18,7 +18,7 @@ fn taken(dimension: usize, law: (&str, &str), scheme: &str, cells: u32, phases: 
         text = text.replace(from, &to);
     }
     if phases > 1 {
-        text = text.replace("[output]", more);
+        text = text.replace("[output]", more).replace(", rise_s = 1", "");
     }
     std::fs::write(&path, &text).unwrap();
     let none = Parameters::new(&[], &[]).unwrap();
