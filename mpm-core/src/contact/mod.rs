@@ -170,7 +170,7 @@ impl<const D: usize> RigidContact<D> {
             let mut force = [0.0; D];
             if let (Some(friction), Some(tried)) = (&self.friction, tried) {
                 let slid = SVector::from(difference(&particles.increment[k], &carried));
-                *tried = along(SVector::from(self.stretch[id]) + slid, &n).into();
+                *tried = tangential(SVector::from(self.stretch[id]) + slid, &n).into();
                 force = friction.force(tried, normal);
                 stiffness = stiffness.max(friction.stiffness());
             }
@@ -226,8 +226,8 @@ impl<const D: usize> Memory for RigidContact<D> {
     }
 }
 
-/// The part of a vector across the normal `n`.
-pub(crate) fn along<const D: usize>(v: SVector<f64, D>, n: &SVector<f64, D>) -> SVector<f64, D> {
+/// The part of a vector in the plane across the normal `n`.
+pub(crate) fn tangential<const D: usize>(v: SVector<f64, D>, n: &SVector<f64, D>) -> SVector<f64, D> {
     v - n * n.dot(&v)
 }
 

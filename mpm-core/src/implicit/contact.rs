@@ -1,12 +1,12 @@
 //! Contact with rigid bodies in a step: barrier and friction at a trial, their stiffness, and gaps that stay open.
 //!
-//! Both act at a particle's place, x + Σ w u, so that their force on a node is Σ w f and their stiffness Σ w w ∂f/∂x,
-//! of any form in the place; smooth faces have B′ along the normal n, B″ n ⊗ n, and −B′ times what n turns by. A stick starts from where the last step left
-//! it, however often a step is tried.
+//! Both act at a particle's place, x + Σ w u, so that their force on a node is Σ w f and their stiffness Σ w w ∂f/∂x. The
+//! barrier pushes by −B′ along the normal n; its stiffness is B″ n ⊗ n + B′ ∇n, where n turns by ∇n over the place. A stick
+//! starts from where the last step left it, however often a step is tried.
 
 use super::elements::Elements;
 use super::{Remedy, Solver};
-use crate::contact::{Barrier, Friction, Gap, RigidContact, RigidFace, along};
+use crate::contact::{Barrier, Friction, Gap, RigidContact, RigidFace, tangential};
 use crate::error::{Error, Fault, require};
 use crate::particles::Particles;
 use crate::scene::Scene;
@@ -81,7 +81,7 @@ impl<const D: usize> Obstacle<D> {
             return;
         };
         let (n, pulled) = (gap.normal, SVector::from(*stick) + (moved - self.carried));
-        push.stretch = along(pulled, &n).into();
+        push.stretch = tangential(pulled, &n).into();
         let (resisting, by_normal) = friction.tangent(&push.stretch, normal);
         push.force += SVector::from(friction.force(&mut push.stretch, normal));
         // ∂s/∂x of s = (I − n ⊗ n) pulled, and ∂N/∂x = −B″ n.
