@@ -30,7 +30,7 @@ fn sag(remedy: Box<dyn Remedy<2>>) -> Result<(f64, f64), Error> {
 
     // The floor holds the lower end of the second axis; two cells are spare above.
     let grid = Grid::new(CELL, [Axis::walls(0.0, 24), Axis::walls(0.0, 10)])?;
-    let floor = Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed };
+    let floor = Wall::new(1, End::Lo, WallKind::Fixed);
     let dt = courant_time_step(0.3, CELL, law.wave_speed(DENSITY));
     let scene = Scene::new(grid, Bodies::new(law, particles)?)
         .load(BodyForce(Box::new(|_, _| [0.0, -GRAVITY])))

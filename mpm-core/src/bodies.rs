@@ -1,7 +1,7 @@
 //! Bodies: each one material, one set of particles, and the state of each.
 
 use crate::eights::{block, entries, fetch, fetch_rows, matrix_entries, numbers};
-use crate::error::{Error, Fault, require};
+use crate::error::{Error, Fault, positive, require};
 use crate::frame::Frame;
 use crate::material::{AnyLaw, SharedLaw, strain_under};
 use crate::memory::{MemoryError, Saved};
@@ -57,7 +57,7 @@ impl Body {
         for (p, row) in self.range.clone().zip(self.states.chunks_exact_mut(self.law.numbers())) {
             let (what, allowed) = ("stress σ_xx at the start", "one that the law has without flow (Pa)");
             let beyond = Error::Input { what, value: particles.stress[p].xx, allowed };
-            self.law.at_rest(&strain_under(self.law.as_ref(), &particles.stress[p]).ok_or(beyond)?, row);
+            self.law.at_rest(&strain_under(self.law.as_ref(), &particles.stress[p], row).ok_or(beyond)?, row);
         }
         Ok(())
     }
@@ -77,7 +77,7 @@ impl<const D: usize> Bodies<D> {
     /// [`Error::Breakdown`] of a particle whose J is not positive and finite.
     pub fn new(law: impl Into<SharedLaw>, particles: Particles<D>) -> Result<Self, Error> {
         let range = 0..particles.len();
-        Self { particles, each: Vec::new() }.with(law.into(), range)
+        Self { particles, each: Vec::new() }.with(law.into(), range, Vec::new())
     }
 
     /// With another body, of the `particles`, which go after those that are there. It sticks to the others, and the
@@ -92,7 +92,7 @@ impl<const D: usize> Bodies<D> {
         let begin = self.particles.len();
         self.particles.append(particles);
         let end = self.particles.len();
-        self.with(law.into(), begin..end)
+        self.with(law.into(), begin..end, Vec::new())
     }
 
     /// The same bodies, of which the last one slides on others with Coulomb's coefficient μ = `friction`.
@@ -116,6 +116,23 @@ impl<const D: usize> Bodies<D> {
         self
     }
 
+    /// The same bodies, of which particles of the last one have `share` times the strength of its law, a function of their
+    /// numbers: clay that gets stronger with depth. It comes before [`Self::under`].
+    ///
+    /// # Errors
+    /// A share that is not positive and finite; a law without a strength that particles can have.
+    pub fn stronger(mut self, share: impl Fn(usize) -> f64) -> Result<Self, Error> {
+        if let Some(Body { law, states, .. }) = self.each.last_mut() {
+            for (number, row) in states.chunks_exact_mut(law.numbers()).enumerate() {
+                let share = share(number);
+                positive(share, "strength of a particle over that of its law", "positive")?;
+                let allowed = "a law whose particles can have a strength: that of Mohr and Coulomb";
+                require(law.stronger(row, share), "strength of a particle over that of its law", share, allowed)?;
+            }
+        }
+        Ok(self)
+    }
+
     /// The same bodies, of which the last one begins under a Cauchy stress (Pa), a function of its particle's number and
     /// place (m): ground under its weight. Places and volumes stay those of its particles; its states are those of the elastic strain that the law
     /// has this stress at.
@@ -132,10 +149,10 @@ impl<const D: usize> Bodies<D> {
         Ok(self)
     }
 
-    /// With a body of `law` whose particles stand in a `range`.
-    fn with(mut self, law: SharedLaw, range: Range<usize>) -> Result<Self, Error> {
+    /// With a body of `law` whose particles stand in a `range`, and keep what was given to them in `states`.
+    fn with(mut self, law: SharedLaw, range: Range<usize>, mut states: Vec<f64>) -> Result<Self, Error> {
         let (p, n) = (&mut self.particles, law.numbers());
-        let mut states = vec![0.0; n * range.len()];
+        states.resize(n * range.len(), 0.0);
         for (k, row) in range.clone().zip(states.chunks_exact_mut(n)) {
             let f = &p.delta_f[k];
             let j = space::determinant(f);
@@ -174,7 +191,7 @@ impl<const D: usize> Bodies<D> {
     pub fn seen_from(&self, frame: &Frame<D>) -> Result<Self, Error> {
         let mut seen = Self { particles: self.particles.seen_from(frame), each: Vec::new() };
         for body in &self.each {
-            seen = seen.with(body.law.in_units(frame.scale(1, 0)), body.range())?;
+            seen = seen.with(body.law.in_units(frame.scale(1, 0)), body.range(), body.states.clone())?;
         }
         for (own, body) in seen.each.iter_mut().zip(&self.each) {
             (own.averages, own.slides) = (body.averages, body.slides);

@@ -45,7 +45,7 @@
 //!     let grid = Grid::new(cell, [Axis::walls(0.0, 12), Axis::walls(0.0, 6)])?;
 //!     let scene = Scene::new(grid, Bodies::new(law, particles)?)
 //!         .load(BodyForce(Box::new(|_, _| [0.0, -9.81])))
-//!         .constrain(Wall { axis: 1, end: End::Lo, kind: WallKind::Fixed });
+//!         .constrain(Wall::new(1, End::Lo, WallKind::Fixed));
 //!     let settings = Settings::new(dt).remedy(Box::new(Fbar::new(Form::Consistent)));
 //!     // Three quadratic splines are non-zero at a point.
 //!     let mut solver = Solver::<2, 3, QuadraticBSpline>::new(scene, settings)?;

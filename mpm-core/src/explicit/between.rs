@@ -12,7 +12,7 @@
 //! grid alone would have them meet where they see a common node, up to two cells apart. Components that constraints hold
 //! take no part. `docs/bodies.md` has limits and tests.
 
-use super::stages::constraint_loss;
+use super::stages::push;
 use super::{Solver, Transfer, VelocityField};
 use crate::basis::Basis;
 use crate::bodies::Bodies;
@@ -207,13 +207,8 @@ impl<const D: usize> Touching<D> {
                 let mass = node.mass();
                 ledger.residual.kinetic_energy -= node.kinetic_energy();
                 for k in (0..D).filter(|k| free[*k]) {
-                    let (velocity, change) = (&mut node.motion.as_mut_array()[k], &mut node.change.as_mut_array()[k]);
-                    let (alone, before) = (*velocity, *velocity - *change);
-                    ledger.residual.free_force -= (mass * *change / dt).abs();
-                    *velocity += sign * impulse[k] / mass;
-                    *change += *velocity - alone;
-                    ledger.residual.free_force += (mass * *change / dt).abs();
-                    ledger.accumulated.constraint_loss += constraint_loss(mass, before, alone, *velocity);
+                    let loss = push(node, k, sign * impulse[k] / mass, dt, &mut ledger.residual);
+                    ledger.accumulated.constraint_loss += loss;
                 }
                 ledger.residual.kinetic_energy += node.kinetic_energy();
             }

@@ -133,12 +133,22 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                     continue;
                 };
                 residual.kinetic_energy -= node.kinetic_energy();
+                let reaction = &mut self.ledger.reactions[c.by];
+                let across = |a: &usize| c.friction > 0.0 && *a != c.axis;
+                let slides = (0..D).filter(across).map(|a| node.motion.as_array()[a].powi(2)).sum::<f64>().sqrt();
+                let stops = (c.friction * (held - free).abs() / slides.max(f64::MIN_POSITIVE)).min(1.0);
+                for a in (0..D).filter(across) {
+                    let by = -stops * node.motion.as_array()[a];
+                    self.ledger.accumulated.constraint_loss += push(node, a, by, dt, &mut residual);
+                    reaction.force[a] -= mass * by / dt;
+                    reaction.impulse[a] -= mass * by;
+                    momentum.as_mut_array()[a] += mass * by;
+                }
                 let change = &mut node.change.as_mut_array()[c.axis];
                 let velocity = &mut node.motion.as_mut_array()[c.axis];
                 let before = free - *change;
                 residual.free_force -= (mass * *change / dt).abs();
                 residual.held_force[c.axis] += c.force;
-                let reaction = &mut self.ledger.reactions[c.by];
                 reaction.force[c.axis] += c.force;
                 reaction.impulse[c.axis] += mass * (before - held) + dt * c.force;
                 self.ledger.accumulated.constraint_loss += constraint_loss(mass, before, free, held);
@@ -375,8 +385,21 @@ fn carry_along<const D: usize, const S: usize, B: Basis<S>, T>(
 
 /// Energy (J) that one who holds a component of a node's velocity removes: see
 /// [`Accumulated::constraint_loss`](crate::monitor::Accumulated::constraint_loss).
-pub(super) fn constraint_loss(mass: f64, before: f64, free: f64, held: f64) -> f64 {
+fn constraint_loss(mass: f64, before: f64, free: f64, held: f64) -> f64 {
     mass * (0.5 * (before * before - held * held) + (free - before) * held)
+}
+
+/// Pushes a node along an axis `by` a change of its velocity (m/s) in a step of `dt` (s); returns the energy (J) that it
+/// loses.
+pub(super) fn push(node: &mut NodalState, axis: usize, by: f64, dt: f64, residual: &mut Residual) -> f64 {
+    let mass = node.mass();
+    let (velocity, change) = (&mut node.motion.as_mut_array()[axis], &mut node.change.as_mut_array()[axis]);
+    let (free, before) = (*velocity, *velocity - *change);
+    residual.free_force -= (mass * *change / dt).abs();
+    *velocity += by;
+    *change += *velocity - free;
+    residual.free_force += (mass * *change / dt).abs();
+    constraint_loss(mass, before, free, *velocity)
 }
 
 /// The new velocity of a node, Eq. (9), and its share in the sums.

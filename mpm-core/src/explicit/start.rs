@@ -116,11 +116,14 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                     velocity: full_velocity,
                     full_velocity,
                     bound: scene.constraints[by].bound(),
+                    friction: scene.constraints[by].friction(),
                     force: 0.0,
                     by,
                 }));
             }
         });
+        // Friction slows a node before another constraint holds it.
+        declared.sort_by(|a, b| b.friction.total_cmp(&a.friction));
         require_held(scene.constraints.len(), declared.iter().map(|held| held.by))
     }
 

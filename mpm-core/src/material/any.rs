@@ -39,8 +39,11 @@ pub trait AnyLaw: Answers<f64> + Answers<Dual<5>> + Answers<Dual<10>> + Send + S
     /// [`Law::in_units`].
     fn in_units(&self, stress: f64) -> SharedLaw;
 
-    /// [`Law::at_rest`], with the state in `row`.
+    /// [`Law::resting`] of the particle in `row`, whose state that becomes.
     fn at_rest(&self, f: &Matrix3<f64>, row: &mut [f64]) -> SymmetricTensor;
+
+    /// [`Law::stronger`] of the state in `row`; whether the law can.
+    fn stronger(&self, row: &mut [f64], share: f64) -> bool;
 
     /// Stress and state of up to eight particles after the deformation `delta_f` over `dt` (s), and their
     /// [`Law::wave_modulus`] (Pa) at the Jacobians `j`. `delta_f` has its entries row by row: one, four in plane strain or
@@ -160,9 +163,14 @@ impl<M: Law + 'static> AnyLaw for M {
     }
 
     fn at_rest(&self, f: &Matrix3<f64>, row: &mut [f64]) -> SymmetricTensor {
-        let (stress, state) = Law::at_rest(self, f);
+        let (stress, state) = Law::resting(self, f, &self.undeformed(&read::<M, f64>(row)));
         M::State::write::<f64>(&state, |i, number| row[i] = *number);
         stress
+    }
+
+    fn stronger(&self, row: &mut [f64], share: f64) -> bool {
+        let state = Law::stronger(self, read::<M, f64>(row), share);
+        state.inspect(|state| M::State::write::<f64>(state, |i, number| row[i] = *number)).is_some()
     }
 
     fn update_eight(

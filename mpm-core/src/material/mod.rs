@@ -126,10 +126,25 @@ pub trait Law: Sized + Send + Sync {
     /// The state of undeformed material.
     fn initial_state(&self) -> Self::State;
 
-    /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f` and came there at no rate.
-    /// Default: of laws whose stress depends on no rate, after a step of any duration.
+    /// The state of undeformed material of a particle whose state is `like` one: what was given to the particle stays.
+    fn undeformed(&self, _like: &Self::State) -> Self::State {
+        self.initial_state()
+    }
+
+    /// A state whose strength is `share` times the law's; none of a law without a strength that particles can have.
+    fn stronger(&self, _state: Self::State, _share: f64) -> Option<Self::State> {
+        None
+    }
+
+    /// Cauchy stress (Pa) and state of a body that rests at the deformation gradient `f`, came there at no rate and was
+    /// `undeformed`. Default: of laws whose stress depends on no rate, after a step of any duration.
+    fn resting(&self, f: &Matrix3<f64>, undeformed: &Self::State) -> (SymmetricTensor, Self::State) {
+        self.response(f, 1.0, undeformed)
+    }
+
+    /// [`Law::resting`] of a particle to which nothing was given.
     fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State) {
-        self.response(f, 1.0, &self.initial_state())
+        self.resting(f, &self.initial_state())
     }
 
     /// Cauchy stress (Pa) and state after the relative deformation `delta_f` over `dt` (s): the law, of one particle

@@ -44,7 +44,7 @@ impl Law for NewtonianFluid {
         1.0
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
+    fn resting(&self, f: &Matrix3<f64>, _undeformed: &f64) -> (SymmetricTensor, f64) {
         let j = f.determinant();
         let pressure_part = self.bulk_modulus * (j - 1.0);
         (SymmetricTensor::identity().scale_add_identity(pressure_part, 0.0), j)

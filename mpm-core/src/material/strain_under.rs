@@ -15,10 +15,10 @@ const MOST_SWEEPS: usize = 1000;
 /// Singular values of the tangent, over the greatest, that are none: those of shear in a fluid.
 const SINGULAR: f64 = 1e-12;
 
-/// The stretch V, symmetric, at which material that was not deformed before has the Cauchy stress `stress` (Pa), by
+/// The stretch V, symmetric, at which the particle in `row`, not deformed before, has the Cauchy stress `stress` (Pa), by
 /// Newton's method; none where the law has it only with flow, or not at all.
-pub(crate) fn strain_under(law: &dyn AnyLaw, stress: &SymmetricTensor) -> Option<Matrix3<f64>> {
-    let mut row = vec![0.0; law.numbers()];
+pub(crate) fn strain_under(law: &dyn AnyLaw, stress: &SymmetricTensor, row: &[f64]) -> Option<Matrix3<f64>> {
+    let mut row = row.to_vec();
     let at_zero = law.at_rest(&Matrix3::identity(), &mut row);
     let before = law.plastic_strain(&row);
     let modulus = law.wave_modulus(1.0, &at_zero, &row);

@@ -53,8 +53,8 @@ impl<M: Law> Law for Viscous<M> {
         (self.law.initial_state(), 1.0)
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, Self::State) {
-        let (stress, state) = self.law.at_rest(f);
+    fn resting(&self, f: &Matrix3<f64>, (undeformed, _): &Self::State) -> (SymmetricTensor, Self::State) {
+        let (stress, state) = self.law.resting(f, undeformed);
         (stress, (state, f.determinant()))
     }
 

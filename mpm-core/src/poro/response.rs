@@ -102,8 +102,8 @@ impl<const D: usize> Particle<'_, D> {
                 }
             }
             let grains = (1.0 - self.medium.porosity) / self.jacobian;
-            answer.mass =
-                volume * (number(gravity.grains * grains) + number(gravity.water) * (change - number(grains)));
+            let solid = number(self.medium.grains.unwrap_or(gravity.grains) * grains);
+            answer.mass = volume * (solid + number(gravity.water) * (change - number(grains)));
         }
         answer
     }

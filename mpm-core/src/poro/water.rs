@@ -54,6 +54,8 @@ pub struct Medium {
     pub porosity: f64,
     /// Conductivity.
     pub conductivity: Conductivity,
+    /// Density of its grains (kg/m³), where that is not [`Gravity::grains`].
+    pub grains: Option<f64>,
 }
 
 impl Medium {
@@ -86,7 +88,7 @@ impl<const D: usize> Water<D> {
     #[must_use]
     pub fn new(porosity: f64, conductivity: Conductivity) -> Self {
         Self {
-            media: vec![Medium { porosity, conductivity }],
+            media: vec![Medium { porosity, conductivity, grains: None }],
             gravity: None,
             start: Box::new(|_| 0.0),
             drained: Box::new(|_| false),
@@ -99,7 +101,14 @@ impl<const D: usize> Water<D> {
     /// With the pores of another body, after those that are there.
     #[must_use]
     pub fn and(mut self, porosity: f64, conductivity: Conductivity) -> Self {
-        self.media.push(Medium { porosity, conductivity });
+        self.media.push(Medium { porosity, conductivity, grains: None });
+        self
+    }
+
+    /// With grains of another density (kg/m³) in the last of the bodies that are there.
+    #[must_use]
+    pub fn grains(mut self, density: f64) -> Self {
+        self.media.iter_mut().last().into_iter().for_each(|medium| medium.grains = Some(density));
         self
     }
 
@@ -153,6 +162,7 @@ impl<const D: usize> Water<D> {
                 Conductivity::Constant(k) => Conductivity::Constant(permeability * k),
                 Conductivity::KozenyCarman(c) => Conductivity::KozenyCarman(permeability * c),
             },
+            grains: medium.grains.map(|grains| density * grains),
             ..medium
         };
         let (start, drained) = (self.start, self.drained);
@@ -198,7 +208,9 @@ impl<const D: usize> Water<D> {
         let Some(gravity) = &self.gravity else {
             return Ok(());
         };
-        for (what, density) in [("density of water", gravity.water), ("density of grains", gravity.grains)] {
+        let own = self.media.iter().map(|medium| medium.grains.unwrap_or(gravity.grains));
+        let grains = own.map(|density| ("density of grains", density));
+        for (what, density) in [("density of water", gravity.water)].into_iter().chain(grains) {
             require(density > 0.0, what, density, "positive (kg/m³)")?;
         }
         let mut components = gravity.acceleration.into_iter();

@@ -70,6 +70,8 @@ pub struct Prescribed {
     pub full_velocity: f64,
     /// How it relates to the node's.
     pub bound: Bound,
+    /// Coulomb's coefficient, by which the impulse of the constraint slows the node across it.
+    pub friction: f64,
     /// Force on the node (N) in the present step, before filters: what damping opposes at a held node is no imbalance.
     pub force: f64,
     /// Place of the constraint in the scene's list.
@@ -108,6 +110,11 @@ pub trait Constraint<const D: usize>: Memory + Send {
     /// How the nodes' velocities relate to those prescribed.
     fn bound(&self) -> Bound {
         Bound::Equal
+    }
+
+    /// Coulomb's coefficient of what it holds.
+    fn friction(&self) -> f64 {
+        0.0
     }
 
     /// The factor of all its velocities at `time` (s).

@@ -1,6 +1,7 @@
 //! Walls on the ends of an axis.
 
 use super::{Bound, Constraint};
+use crate::error::{Error, require};
 use crate::frame::Frame;
 use crate::grid::Grid;
 use crate::memory::Memoryless;
@@ -46,7 +47,7 @@ pub enum WallKind {
 }
 
 /// A wall at one end of an axis: the nodes on it and beyond it are held.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wall {
     /// Axis normal to the wall.
     pub axis: usize,
@@ -54,6 +55,9 @@ pub struct Wall {
     pub end: End,
     /// Components held.
     pub kind: WallKind,
+    /// Coulomb's coefficient of a [`WallKind::Separable`] wall in an explicit run: what presses a node onto the wall slows
+    /// it along the wall, by that times the normal impulse at most. XPIC does not know of it.
+    pub friction: f64,
 }
 
 /// A node this fraction of a cell inside still counts as on the wall.
@@ -63,7 +67,17 @@ impl Wall {
     /// Wall at one `end` of an `axis`.
     #[must_use]
     pub fn new(axis: usize, end: End, kind: WallKind) -> Self {
-        Self { axis, end, kind }
+        Self { axis, end, kind, friction: 0.0 }
+    }
+
+    /// The same with Coulomb's coefficient of friction.
+    ///
+    /// # Errors
+    /// A coefficient that is negative or not finite; one that is not zero, of a wall that is not separable.
+    pub fn friction(self, friction: f64) -> Result<Self, Error> {
+        let within = friction == 0.0 || friction > 0.0 && self.kind == WallKind::Separable;
+        require(within, "friction of a wall", friction, "zero, or positive at a separable wall")?;
+        Ok(Self { friction, ..self })
     }
 }
 
@@ -87,6 +101,10 @@ impl<const D: usize> Constraint<D> for Wall {
             (WallKind::Separable, End::Lo) => Bound::AtLeast,
             (WallKind::Separable, End::Hi) => Bound::AtMost,
         }
+    }
+
+    fn friction(&self) -> f64 {
+        self.friction
     }
 
     fn seen_from(self: Box<Self>, frame: &Frame<D>) -> Box<dyn Constraint<D>> {

@@ -408,8 +408,16 @@ fn xpic_moves_a_particle_with_the_mean_of_its_velocities_and_not_through_a_wall(
     // The node on the wall as mapped, −1, then held: velocity 0, change 1.
     frozen.nodes[wall].motion = Node::from([0.0, 0.0, 0.0, 0.1]);
     frozen.nodes[wall].change = Node::from([1.0, 0.0, 0.0, 0.0]);
-    let held =
-        [Prescribed { node: wall, axis: 0, velocity: 0.0, full_velocity: 0.0, bound: Bound::Equal, force: 0.0, by: 0 }];
+    let held = [Prescribed {
+        node: wall,
+        axis: 0,
+        velocity: 0.0,
+        full_velocity: 0.0,
+        bound: Bound::Equal,
+        friction: 0.0,
+        force: 0.0,
+        by: 0,
+    }];
     let mut xpic = Xpic::new(1).unwrap();
     let (particles, slabs, nodes) = (&frozen.particles, &frozen.slabs, &frozen.nodes);
     assert_eq!(xpic.prepare(lattice, particles, std::slice::from_ref(slabs), nodes, &held), 0);

@@ -6,8 +6,9 @@ use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::transfer::{Apic, Flip};
 use mpm_core::explicit::{Settings, Solver, Transfer};
 use mpm_core::material::NeoHookean;
+use mpm_core::monitor::Accumulated;
 use mpm_core::stage::{BodyForce, End, LocalDamping, Wall, WallKind};
-use mpm_core::{Axis, Basis, Error, Grid, Part, Particles, Scene, Simulation};
+use mpm_core::{Axis, Basis, Error, Grid, Part, Particles, Scene, Side, Simulation, SymmetricTensor};
 
 const H: f64 = 0.5;
 /// Speed (m/s) of the block, a hundredth of that of sound.
@@ -162,4 +163,84 @@ fn gimp_may_pass_a_wall_by_half_a_particle_and_comes_to_rest_there() {
     // Functions that vanish at the wall hold what touches it.
     assert!(grain::<QuadraticBSpline>(0.0, 1.0).is_ok());
     assert!(grain::<QuadraticBSpline>(-0.01, 1.0).is_err());
+}
+
+/// Weight per mass (m/s²) of a block on a floor at 20°, and its speed at the start (m/s).
+const WEIGHT: f64 = 0.1;
+const DOWN: f64 = 0.1;
+
+/// A block of eight by four cells under its weight on a floor with a coefficient of friction, in a frame along the floor.
+fn on_a_slope<B: Basis<3>, T: Transfer<2>>(friction: f64, speed: f64, transfer: T) -> Solver<2, 3, B, T> {
+    let grid = Grid::new(H, [Axis::open(0.0, 24), Axis::bounded(0.0, 7, (Side::Wall, Side::Open))]).unwrap();
+    let mut particles = scenes::block(H, 2, [2, 0], [10, 4]);
+    particles.velocity.fill([speed, 0.0]);
+    let (mut scene, settings) = scenes::scene_with(grid, particles, transfer);
+    let (along, down) = (WEIGHT * 20.0_f64.to_radians().sin(), WEIGHT * 20.0_f64.to_radians().cos());
+    let stress = |_, x: &[f64; 2]| SymmetricTensor { yy: -DENSITY * down * (4.0 * H - x[1]), ..Default::default() };
+    scene.bodies = scene.bodies.under(stress).unwrap();
+    let floor = Wall::new(1, End::Lo, WallKind::Separable).friction(friction).unwrap();
+    let scene = scene.constrain(floor).load(BodyForce(Box::new(move |_: &[f64; 2], _| [along, -down])));
+    started((scene, settings))
+}
+
+/// While all of its lowest nodes slide, the floor takes μ times the normal impulse, and the block loses the energy of it.
+fn slides_by_coulomb<B: Basis<3>, T: Transfer<2>>(transfer: T) {
+    let friction = 0.2;
+    let mut solver = on_a_slope::<B, T>(friction, DOWN, transfer);
+    let start = solver.totals();
+    let (mut energy, mut worked, mut before) = (start.kinetic_energy, 0.0, 0.0);
+    for _ in 0..400 {
+        solver.step().unwrap();
+        let (now, impulse) = (solver.totals(), solver.on(Part::Constraint(0)).impulse);
+        // Nodes at its ends that carry next to nothing may stick.
+        let most = -friction * impulse[1];
+        assert!(impulse[0] <= most + 1e-12 * start.momentum[0] && impulse[0] > 0.999 * most, "{impulse:?}");
+        let Accumulated { stress_work, load_work, constraint_loss, .. } = now.accumulated;
+        let left = now.kinetic_energy + stress_work + constraint_loss - load_work;
+        assert!(left <= energy + 1e-9 * start.kinetic_energy, "{left} {energy}");
+        worked += (impulse[0] - before) * now.momentum[0] / now.mass;
+        (energy, before) = (left, impulse[0]);
+    }
+    let (now, angle) = (solver.totals(), 20.0_f64.to_radians());
+    let gained = WEIGHT * (angle.sin() - friction * angle.cos()) * solver.time();
+    let error = (now.momentum[0] - start.momentum[0]) / (now.mass * gained) - 1.0;
+    assert!(error.abs() < 0.03, "{error}");
+    let lost = now.accumulated.constraint_loss / worked;
+    assert!((lost - 1.0).abs() < 0.05, "{lost}");
+}
+
+#[test]
+fn a_block_slides_on_a_wall_by_coulombs_friction() {
+    slides_by_coulomb::<Gimp, _>(Flip::default());
+    slides_by_coulomb::<QuadraticBSpline, _>(Flip::default());
+    slides_by_coulomb::<Gimp, _>(Apic);
+}
+
+/// It stays where the coefficient is above twice the slope's tangent, as a load that comes at once swings to twice itself;
+/// and so does what it is sheared and bent by.
+#[test]
+fn a_block_stays_on_a_wall_that_holds_it() {
+    let mut solver = on_a_slope::<Gimp, _>(0.8, 0.0, Flip::default());
+    solver.advance(400).unwrap();
+    let (height, width, pull) = (4.0 * H, 8.0 * H, DENSITY * WEIGHT * 20.0_f64.to_radians().sin());
+    let sheared = 1.2 * pull * height.powi(2) / (2.0 * 100.0 / 2.6);
+    let bent = pull * width * height.powi(4) / (8.0 * 100.0 / (1.0 - 0.09) * width.powi(3) / 12.0);
+    let p = solver.particles();
+    let moved = p.position.iter().zip(&p.reference).map(|(x, start)| (x[0] - start[0]).abs());
+    let farthest = moved.fold(0.0, f64::max);
+    assert!(farthest < 2.2 * (sheared + bent), "{farthest} {sheared} {bent}");
+    let mut slides = on_a_slope::<Gimp, _>(0.3, 0.0, Flip::default());
+    slides.advance(400).unwrap();
+    assert!(slides.totals().momentum[0] > 10.0 * solver.totals().momentum[0].abs());
+}
+
+#[test]
+fn friction_is_of_separable_walls() {
+    let wall = |kind| Wall::new(0, End::Lo, kind);
+    for kind in [WallKind::Fixed, WallKind::Roller] {
+        assert!(wall(kind).friction(0.3).is_err() && wall(kind).friction(0.0).is_ok());
+    }
+    for friction in [-0.1, f64::NAN, f64::INFINITY] {
+        assert!(wall(WallKind::Separable).friction(friction).is_err());
+    }
 }

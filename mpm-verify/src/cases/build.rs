@@ -86,10 +86,10 @@ pub(super) fn stretched<const D: usize>(stretch: f64) -> SMatrix<f64, D, D> {
 
 /// A wall on which material sticks.
 pub(super) fn clamp(axis: usize, end: End) -> Wall {
-    Wall { axis, end, kind: WallKind::Fixed }
+    Wall::new(axis, end, WallKind::Fixed)
 }
 
 /// A wall along which material slides.
 pub(super) fn roller(axis: usize, end: End) -> Wall {
-    Wall { axis, end, kind: WallKind::Roller }
+    Wall::new(axis, end, WallKind::Roller)
 }

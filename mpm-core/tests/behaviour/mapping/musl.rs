@@ -107,8 +107,16 @@ fn what_is_held_has_no_other_velocity_in_strains() {
     }
     nodes[wall].motion = Node::from([0.0, 0.0, 0.0, nodes[wall].mass()]);
     nodes[wall].change = Node::ZERO;
-    let held =
-        [Prescribed { node: wall, axis: 0, velocity: 0.0, full_velocity: 0.0, bound: Bound::Equal, force: 0.0, by: 0 }];
+    let held = [Prescribed {
+        node: wall,
+        axis: 0,
+        velocity: 0.0,
+        full_velocity: 0.0,
+        bound: Bound::Equal,
+        friction: 0.0,
+        force: 0.0,
+        by: 0,
+    }];
     let slope = |held: &[Prescribed]| {
         let mut musl = Musl::default();
         let (particles, slabs) = (&frozen.particles, &frozen.slabs);

@@ -26,8 +26,8 @@ impl Law for Prestressed {
         1.0
     }
 
-    fn at_rest(&self, f: &Matrix3<f64>) -> (SymmetricTensor, f64) {
-        let (stress, state) = self.bulk.at_rest(f);
+    fn resting(&self, f: &Matrix3<f64>, undeformed: &f64) -> (SymmetricTensor, f64) {
+        let (stress, state) = self.bulk.resting(f, undeformed);
         (stress.scale_add_identity(1.0, self.mean), state)
     }
 

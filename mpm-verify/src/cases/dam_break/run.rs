@@ -68,7 +68,7 @@ impl Dam {
         let h = self.setup.h;
         let [along, up] = [TANK, HEIGHT].map(|length| (length / h).round() as usize);
         let grid = Grid::new(h, [Axis::walls(0.0, along), Axis::bounded(0.0, up, (Side::Wall, Side::Open))])?;
-        Ok(Scene::new(grid, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall { axis, end, kind })))
+        Ok(Scene::new(grid, body).load(weight).constrain_all(walls.map(|(axis, end)| Wall::new(axis, end, kind))))
     }
 
     fn settings(&self, damping: f64) -> Result<Settings<2>, Fault> {

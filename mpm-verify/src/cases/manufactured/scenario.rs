@@ -128,7 +128,7 @@ impl<K: Known> Scenario<K> {
             }
         }
         let mut walls = Vec::new();
-        let mut hold = |axis, end, kind| walls.push(Wall { axis, end, kind });
+        let mut hold = |axis, end, kind| walls.push(Wall::new(axis, end, kind));
         let axes = std::array::from_fn(|axis| {
             let (lo, n) = (extent[axis][0], cells(extent[axis], h));
             let (sides, floor) = match K::BOUNDARY {

@@ -2,7 +2,7 @@
 
 use super::fault::{Line, Source};
 use super::form::{BodyForm, Form, LawForm};
-use super::law::law_of;
+use super::law::{cohesion, law_of};
 use crate::cases::prelude::*;
 use mpm_core::bodies::Body;
 
@@ -45,7 +45,17 @@ impl LawForm {
     }
 }
 
+/// What a cohesion needs that grows with depth.
+const GRADIENT: &str = "cohesion_gradient_pa_m is of a law mohr-coulomb with a cohesion_pa above zero, at the body's \
+                        highest point";
+
 impl BodyForm {
+    /// Whether the law of this body, number `k`, has a cohesion that can grow with depth.
+    fn cohesive(&self, form: &Form, k: usize) -> bool {
+        let law = if k == 0 { Some(&form.law) } else { self.law.as_ref() };
+        law.is_some_and(|law| cohesion(law.get_ref()) > 0.0)
+    }
+
     /// Whether it has pores of its own.
     fn has_pores(&self) -> bool {
         self.porosity.is_some() || self.conductivity.is_some()
@@ -73,6 +83,7 @@ pub(super) fn check_bodies(source: &Source, form: &Form, scheme: Scheme) -> Resu
     for (k, body) in form.all_bodies().enumerate() {
         let own = body.get_ref();
         let several = !form.bodies.is_empty();
+        let weightless = form.water.as_ref().is_some_and(|water| water.get_ref().density_kg_m3.is_none());
         let explicit = matches!(scheme, Scheme::Explicit(_));
         let averages = scheme.remedy() != RemedyName::None;
         let wrong = [
@@ -85,7 +96,8 @@ pub(super) fn check_bodies(source: &Source, form: &Form, scheme: Scheme) -> Resu
             (own.friction.is_some() && !explicit, "bodies that slide need an explicit scheme"),
             (own.remedy == Some(false) && !averages, "the scheme has no remedy that a body could be without"),
             (own.has_pores() && form.water.is_none(), "porosity and conductivity act on nothing: there is no [water]"),
-            (own.k0.is_some() && form.water.is_some(), "k0 is of ground without [water]"),
+            (own.cohesion_gradient_pa_m.is_some() && !own.cohesive(form, k), GRADIENT),
+            (own.k0.is_some() && weightless, "k0 needs a density_kg_m3 of [water]"),
             (k == 0 && own.has_pores(), "porosity and conductivity of [body] stand in [water]"),
             (
                 several && averages && !explicit,

@@ -163,6 +163,8 @@ tables! {
         friction: Option<NotNegative>,
         /// Horizontal over vertical stress at the start, of ground under its weight; none of a body without stress.
         k0: Option<NotNegative>,
+        /// How much its cohesion grows per metre below its highest point, of a law by Mohr and Coulomb.
+        cohesion_gradient_pa_m: Option<NotNegative>,
         /// Its own pores, where they are not those of `water`.
         porosity: Option<Share>, conductivity: Option<ConductivityForm>,
     }
@@ -172,9 +174,22 @@ tables! {
         name: Name, knots: Option<Vec<[Finite; 2]>>, file: Option<String>,
     }
 
+    /// What softening leaves of a strength, and the plastic strain at which it does.
+    #[derive(Clone, Copy)]
+    ResidualForm {
+        cohesion_pa: Finite, friction_deg: Finite,
+        /// Zero.
+        #[serde(default)] dilation_deg: NotNegative,
+        plastic_strain: Positive,
+    }
+
     WaterForm {
         porosity: Share,
         conductivity: ConductivityForm,
+        /// With it water has a weight, and the densities of bodies are those of saturated ground.
+        density_kg_m3: Option<Positive>,
+        /// Where the pressure is zero at the start; the top of the bodies without it.
+        level_m: Option<Finite>,
         /// Pressure nodes held at zero.
         drained: Option<Region>,
         #[serde(default)] faces: Vec<Line<FaceForm>>,
@@ -298,6 +313,9 @@ kinds! {
             /// Zero.
             #[serde(default)]
             dilation_deg: NotNegative,
+            /// The greatest principal stress; none without it.
+            tension_pa: Option<NotNegative>,
+            residual: Option<ResidualForm>,
         },
         NewtonianFluid { bulk_modulus_pa: Finite, viscosity_pa_s: Finite },
         /// The porosity is that of `water`.
@@ -358,7 +376,7 @@ kinds! {
 
     SupportForm {
         Wall {
-            name: Name, axis: AxisForm, end: EndForm, kind: WallForm,
+            name: Name, axis: AxisForm, end: EndForm, kind: WallForm, friction: Option<NotNegative>,
             #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
         /// Nodes in a region that move at the given speeds (m/s), and freely along the axes that are not named.

@@ -1,10 +1,13 @@
 //! Stress of ground that has always been there: the vertical one as what lies above weighs, the horizontal one K₀ times it.
 
-use super::fault::Source;
-use super::form::LoadForm;
+use super::fault::{Line, Source};
+use super::form::{LoadForm, WaterForm};
 use super::setup::{Setup, acts};
 use crate::cases::prelude::*;
 use mpm_core::SymmetricTensor;
+
+/// Share of a particle by which a level may be above the ground.
+const ROUNDING: f64 = 1e-6;
 
 /// σ_v along the last axis, K₀ σ_v across it.
 pub(super) fn geostatic<const D: usize>(vertical: f64, k0: f64) -> SymmetricTensor {
@@ -13,8 +16,9 @@ pub(super) fn geostatic<const D: usize>(vertical: f64, k0: f64) -> SymmetricTens
 }
 
 impl<const D: usize> Setup<D> {
-    /// That bodies with a K₀ have a gravity that presses down from the start.
+    /// That bodies with a K₀, and water with a weight, have a gravity that presses down from the start.
     pub(super) fn check_geostatic(&self, source: &Source) -> Result<(), Error> {
+        self.check_weight_of_water(source)?;
         let stressed = self.form.all_bodies().find(|body| body.get_ref().k0.is_some());
         match stressed {
             Some(body) if self.gravity().is_none() => Err(source.at(
@@ -23,6 +27,51 @@ impl<const D: usize> Setup<D> {
             )),
             _ => Ok(()),
         }
+    }
+
+    fn check_weight_of_water(&self, source: &Source) -> Result<(), Error> {
+        let Some(water) = &self.form.water else { return Ok(()) };
+        let WaterForm { density_kg_m3, level_m, .. } = water.get_ref();
+        let Some(density) = density_kg_m3 else {
+            let said = "level_m acts on nothing: water without a density_kg_m3 begins without pressure";
+            return if level_m.is_some() { Err(source.at(water, said)) } else { Ok(()) };
+        };
+        let pulls = |load: &&Line<LoadForm>| matches!(load.get_ref(), LoadForm::Gravity { .. });
+        let always = |load: &Line<LoadForm>| self.phases.iter().all(|phase| acts(load.get_ref().when().2, &phase.name));
+        if self.gravity().is_none() || !self.form.loads.iter().find(pulls).is_some_and(always) {
+            let said = "density_kg_m3 needs one gravity, in all phases, down along the last axis and without rise_s or \
+                        amplitude";
+            return Err(source.at(water, said));
+        }
+        if level_m.is_some_and(|level| level.0 > self.top() + ROUNDING * self.spacing) {
+            let said = format!(
+                "level_m above the bodies, at {} m: water on the ground is a traction of [[water.faces]]",
+                self.top()
+            );
+            return Err(source.at(water, said));
+        }
+        for body in self.form.all_bodies() {
+            let filled = density.0 * body.get_ref().porosity.unwrap_or(water.get_ref().porosity).0;
+            if body.get_ref().density_kg_m3.0 <= filled {
+                let said = format!("density_kg_m3 of saturated ground is above that of its water, {filled} kg/m³");
+                return Err(source.at(body, said));
+            }
+        }
+        Ok(())
+    }
+
+    /// The highest place of the bodies (m).
+    fn top(&self) -> f64 {
+        self.seeds.places.iter().map(|x| x[D - 1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * self.spacing
+    }
+
+    /// The pressure (Pa) at the start of water with a weight, by place (m), and its density (kg/m³) and acceleration
+    /// (m/s²); none of water without a weight.
+    pub(super) fn hydrostatic(&self) -> Option<(impl Fn(&[f64; D]) -> f64 + Send + Sync + use<D>, f64, f64)> {
+        let water = self.form.water.as_ref()?.get_ref();
+        let (density, gravity) = (water.density_kg_m3?.0, self.gravity()?);
+        let level = water.level_m.map_or(self.top(), |level| level.0);
+        Some((move |x: &[f64; D]| density * gravity * (x[D - 1] - level), density, gravity))
     }
 
     /// Acceleration (m/s²) of the one gravity of the first phase, if it acts from the start and along the last axis.

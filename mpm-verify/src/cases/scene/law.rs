@@ -1,7 +1,7 @@
 //! The laws that a scene file can name.
 
 use super::fault::{Line, Source};
-use super::form::{Form, LawForm, MatchedForm, StrengthForm};
+use super::form::{Finite, Form, LawForm, MatchedForm, NotNegative, StrengthForm};
 use crate::error::Error;
 use mpm_core::material::{
     CamClay, DruckerPrager, Hencky, HenckyJ2, ImprovedHencky, Matched, MohrCoulomb, NeoHookean, NewtonianFluid,
@@ -37,8 +37,22 @@ pub(super) fn law_of(form: &LawForm, porosity: Option<f64>) -> Result<SharedLaw,
             let angles = [friction_deg.0, dilation_deg.0].map(f64::to_radians);
             DruckerPrager::new((young_modulus_pa.0, poisson_ratio.0), cohesion_pa.0, angles, matched)?.into()
         }
-        LawForm::MohrCoulomb { young_modulus_pa: e, poisson_ratio: nu, cohesion_pa, friction_deg, dilation_deg } => {
-            MohrCoulomb::new((e.0, nu.0), cohesion_pa.0, [friction_deg.0, dilation_deg.0].map(f64::to_radians))?.into()
+        LawForm::MohrCoulomb {
+            young_modulus_pa: e,
+            poisson_ratio: nu,
+            cohesion_pa,
+            friction_deg,
+            dilation_deg,
+            tension_pa,
+            residual,
+        } => {
+            let angles = [friction_deg.0, dilation_deg.0].map(f64::to_radians);
+            let mut law = MohrCoulomb::new((e.0, nu.0), cohesion_pa.0, angles)?;
+            if let Some(to) = residual {
+                let angles = [to.friction_deg.0, to.dilation_deg.0].map(f64::to_radians);
+                law = law.softening(to.cohesion_pa.0, angles, to.plastic_strain.0)?;
+            }
+            tension_pa.map_or(Ok(law), |tension| law.cut_off(tension.0))?.into()
         }
         LawForm::NewtonianFluid { bulk_modulus_pa: k, viscosity_pa_s: mu } => NewtonianFluid::new(k.0, mu.0)?.into(),
         LawForm::ImprovedHencky { bulk_parameter: k, shear_modulus_pa: g } => soaked(k.0, g.0)?.into(),
@@ -74,16 +88,29 @@ impl Source {
                 let why = "no strength to be divided: hencky-j2, drucker-prager and mohr-coulomb have one";
                 return Err(self.fault(&place, why));
             }
+            let bodies = [&mut form.body].into_iter().chain(&mut form.bodies);
+            bodies
+                .filter_map(|body| body.as_mut().cohesion_gradient_pa_m.as_mut())
+                .for_each(|rise| rise.0 /= self.weaker);
             let phases = form.phases.iter_mut().filter_map(|phase| phase.as_mut().law.as_mut());
             let others = form.bodies.iter_mut().filter_map(|body| body.as_mut().law.as_mut()).map(Line::as_mut);
             for law in phases.chain([form.law.as_mut()]).chain(others) {
+                let divide = |cohesion: &mut Finite, friction: &mut Finite, dilation: &mut NotNegative| {
+                    cohesion.0 /= self.weaker;
+                    friction.0 = (friction.0.to_radians().tan() / self.weaker).atan().to_degrees();
+                    // Ground that flows with a smaller angle of friction does not dilate more than by that.
+                    dilation.0 = dilation.0.min(friction.0);
+                };
                 if let LawForm::DruckerPrager { cohesion_pa, friction_deg, dilation_deg, .. }
                 | LawForm::MohrCoulomb { cohesion_pa, friction_deg, dilation_deg, .. } = law
                 {
-                    cohesion_pa.0 /= self.weaker;
-                    friction_deg.0 = (friction_deg.0.to_radians().tan() / self.weaker).atan().to_degrees();
-                    // Ground that flows with a smaller angle of friction does not dilate more than by that.
-                    dilation_deg.0 = dilation_deg.0.min(friction_deg.0);
+                    divide(cohesion_pa, friction_deg, dilation_deg);
+                }
+                if let LawForm::MohrCoulomb { tension_pa, residual, .. } = law {
+                    tension_pa.iter_mut().for_each(|tension| tension.0 /= self.weaker);
+                    if let Some(to) = residual {
+                        divide(&mut to.cohesion_pa, &mut to.friction_deg, &mut to.dilation_deg);
+                    }
                 }
                 let LawForm::HenckyJ2 { strength, .. } = law else { continue };
                 match strength {
@@ -99,6 +126,11 @@ impl Source {
         }
         Ok(form)
     }
+}
+
+/// The cohesion (Pa) at the start of a law whose particles can have a strength of their own; zero of others.
+pub(super) fn cohesion(form: &LawForm) -> f64 {
+    if let LawForm::MohrCoulomb { cohesion_pa, .. } = form { cohesion_pa.0 } else { 0.0 }
 }
 
 /// The undrained shear strength (Pa) at the start, ‖s‖/√2, of a law that yields by one.

@@ -65,7 +65,10 @@ impl<const D: usize> Setup<D> {
         phase: &Phase,
         particles: &Particles<D>,
     ) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
-        let all = self.acting(phase).map(|(form, amplitude)| {
+        // The weight of ground and water is that of the water.
+        let soaked = self.hydrostatic().is_some();
+        let acting = self.acting(phase).filter(|(form, _)| !soaked || !matches!(form, LoadForm::Gravity { .. }));
+        let all = acting.map(|(form, amplitude)| {
             let (load, count): (Box<dyn Load<D>>, usize) = match form {
                 LoadForm::Gravity { acceleration_m_s2, .. } => {
                     let g = components::<D>(acceleration_m_s2);

@@ -3,6 +3,7 @@
 use super::fault::Line;
 use super::form::{BodyForm, LoadForm};
 use super::geostatic::geostatic;
+use super::law::cohesion;
 use super::phase::Phase;
 use super::setup::{Setup, acts};
 use super::shape::Seeds;
@@ -20,7 +21,9 @@ impl<const D: usize> Setup<D> {
         // Later phases go on with the stress that they find.
         let begins = self.phases.first().is_some_and(|first| first.name == phase.name);
         let overburden = if begins { self.overburden() } else { Vec::new() };
-        for ((body, law), range) in self.form.all_bodies().zip(laws).zip(self.ranges()) {
+        let each = self.form.all_bodies().zip(laws).zip(self.ranges()).zip(self.form.laws());
+        for (((body, law), range), own) in each {
+            let own = own.get_ref();
             let (body, law) = (body.get_ref(), Arc::clone(law));
             let vertical = overburden.get(range.clone()).unwrap_or_default();
             let particles = self.particles_of(body, range.clone())?;
@@ -28,8 +31,16 @@ impl<const D: usize> Setup<D> {
                 None => Bodies::new(law, particles)?,
                 Some(others) => others.and(law, particles)?,
             };
+            if let Some(gradient) = body.cohesion_gradient_pa_m.filter(|_| begins) {
+                let height = |k: usize| self.seeds.places[k][D - 1];
+                let top = range.clone().map(height).fold(f64::NEG_INFINITY, f64::max) + 0.5 * self.spacing;
+                let per_metre = gradient.0 / cohesion(own);
+                bodies = bodies.stronger(|k| 1.0 + per_metre * (top - height(range.start + k)))?;
+            }
             if let Some(k0) = body.k0.filter(|_| begins) {
-                bodies = bodies.under(|k, _| geostatic::<D>(vertical[k], k0.0))?;
+                let water = self.hydrostatic();
+                let borne = |x: &[f64; D]| water.as_ref().map_or(0.0, |(pressure, ..)| pressure(x));
+                bodies = bodies.under(|k, x| geostatic::<D>(vertical[k] + borne(x), k0.0))?;
             }
             let stresses = self.seeds.stresses.get(range).unwrap_or_default();
             if begins && stresses.iter().any(|stress| *stress != SymmetricTensor::default()) {

@@ -144,6 +144,13 @@ impl<const D: usize> Setup<D> {
                 let said = "musl gains energy at a separable wall, up to a fifth in an impact: a roller or another transfer is allowed";
                 return Err(source.at(support, said));
             }
+            SupportForm::Wall { kind, friction: Some(_), .. }
+                if !matches!(kind, WallForm::Separable) || self.scheme.transfer() == TransferName::Xpic2 =>
+            {
+                let said = "friction of a wall is of kind = \"separable\" and of a transfer other than xpic; a contact \
+                            with a face has friction in any scheme";
+                return Err(source.at(support, said));
+            }
             SupportForm::Wall { axis, end, .. } => {
                 let (lo, hi) = self.grid.axes[*axis as usize].wall_ends();
                 let there = matches!(end, EndForm::Lo) && lo || matches!(end, EndForm::Hi) && hi;
@@ -282,16 +289,14 @@ impl<const D: usize> Setup<D> {
         let mut all: Vec<Box<dyn Constraint<D>>> = Vec::new();
         for support in &self.form.supports {
             match support.get_ref() {
-                SupportForm::Wall { axis, end, kind, phases, .. } if acts(phases, &phase.name) => {
-                    all.push(Box::new(Wall {
-                        axis: *axis as usize,
-                        end: end_of(*end),
-                        kind: match kind {
-                            WallForm::Fixed => WallKind::Fixed,
-                            WallForm::Roller => WallKind::Roller,
-                            WallForm::Separable => WallKind::Separable,
-                        },
-                    }))
+                SupportForm::Wall { axis, end, kind, friction, phases, .. } if acts(phases, &phase.name) => {
+                    let kind = match kind {
+                        WallForm::Fixed => WallKind::Fixed,
+                        WallForm::Roller => WallKind::Roller,
+                        WallForm::Separable => WallKind::Separable,
+                    };
+                    let friction = friction.map_or(0.0, |friction| friction.0);
+                    all.push(Box::new(Wall { friction, ..Wall::new(*axis as usize, end_of(*end), kind) }));
                 }
                 SupportForm::Nodes { within, velocity_m_s, moves, rise_s, amplitude, phases, .. }
                     if acts(phases, &phase.name) =>
@@ -383,10 +388,19 @@ impl<const D: usize> Setup<D> {
             ConductivityForm::Constant { m2_pa_s } => Conductivity::Constant(m2_pa_s.0),
             ConductivityForm::KozenyCarman { m2_pa_s } => Conductivity::KozenyCarman(m2_pa_s.0),
         };
+        let weight = self.hydrostatic();
+        let density = weight.as_ref().map_or(0.0, |(_, density, _)| *density);
+        let grains = |density_of: f64, n: f64| (density_of - n * density) / (1.0 - n);
         let mut water = Water::new(form.porosity.0, conductivity(&form.conductivity));
         for own in self.form.bodies.iter().map(Line::get_ref) {
-            let porosity = own.porosity.unwrap_or(form.porosity);
-            water = water.and(porosity.0, conductivity(own.conductivity.as_ref().unwrap_or(&form.conductivity)));
+            let porosity = own.porosity.unwrap_or(form.porosity).0;
+            water = water.and(porosity, conductivity(own.conductivity.as_ref().unwrap_or(&form.conductivity)));
+            water = water.grains(grains(own.density_kg_m3.0, porosity));
+        }
+        if let Some((pressure, density, gravity)) = weight {
+            let grains = grains(self.form.body.get_ref().density_kg_m3.0, form.porosity.0);
+            let acceleration = std::array::from_fn(|axis| if axis + 1 == D { gravity } else { 0.0 });
+            water = water.gravity(poro::Gravity { water: density, grains, acceleration }).start(pressure);
         }
         if let Some(region) = &form.drained {
             water = water.drained(holds(region));

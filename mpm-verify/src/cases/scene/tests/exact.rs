@@ -64,6 +64,30 @@ fn an_infinite_slope_stands_and_fails_by_its_factor() {
     }
 }
 
+/// Clay whose strength grows with depth, s_u = 10 kPa + 3 kPa/m z, on a slope: F = s_u/(ρ g z sin β) at the base. A strength
+/// that flow takes away, or a cut-off of tension, changes nothing before it flows.
+#[test]
+fn clay_that_gets_stronger_with_depth_fails_at_its_base() {
+    let law = "cohesion_pa = 10000\nfriction_deg = 0";
+    let clay = [
+        ("cohesion_pa = 5000\nfriction_deg = 25\ndilation_deg = 25", law),
+        ("particles_per_direction = 2", "particles_per_direction = 2\ncohesion_gradient_pa_m = 3000"),
+    ];
+    let factor = |depth: f64| (10e3 + 3e3 * depth) / (1835.0 * 9.81 * depth * 20.0_f64.to_radians().sin());
+    let error = |changes: &[(&str, &str)], factor: f64| {
+        run("infinite-slope.toml", changes, factor).err().map(|e| e.to_string()).unwrap_or_default()
+    };
+    assert_eq!(error(&clay, factor(5.0)), "");
+    assert!(error(&clay, 1.005 * factor(4.875)).contains("gives way"));
+    let uniform = [("particles_per_direction = 2", "particles_per_direction = 2"), clay[0]];
+    assert!(error(&uniform, factor(5.0)).contains("gives way"));
+    let brittle = "cohesion_pa = 10000\nfriction_deg = 0\ntension_pa = 1000\nresidual = { cohesion_pa = 5000, \
+                   friction_deg = 0, plastic_strain = 0.01 }";
+    let brittle = [(clay[0].0, brittle), clay[1]];
+    assert_eq!(error(&brittle, factor(5.0)), "");
+    assert!(error(&brittle, 1.005 * factor(4.875)).contains("gives way"));
+}
+
 /// Stresses of a strip load below the depth b, by Flamant's solution: particles have those of the cell's middle, h²/(8 b²)
 /// of the load off at most.
 #[test]

@@ -181,3 +181,116 @@ fn a_table_gives_the_stress_at_the_start() {
     std::fs::write(&path, &own).unwrap();
     assert!(last(&rows_of(&path, 2).0, "displacement_max (m)") > 1e-3);
 }
+
+/// [`LEVEL`] with water in its pores: 2000 and 1600 kg/m³ are those of saturated ground.
+fn soaked() -> String {
+    let water = "[water]\nporosity = 0.4\nconductivity.constant = { m2_pa_s = 1e-8 }\ndensity_kg_m3 = 1000
+drained = { y_m = [5.9, inf] }\n[[supports]]\nwall = { name = \"base\"";
+    LEVEL
+        .replace("quasi-static-gimp-none", "poro-gimp-two-grid")
+        .replacen("[[supports]]\nwall = { name = \"base\"", water, 1)
+        .replacen("k0 = 0.8", "k0 = 0.8\nporosity = 0.5", 1)
+}
+
+/// Its water is hydrostatic from the top, and K₀ is the ratio of what the grains bear; a later load adds to both.
+#[test]
+fn layers_with_water_begin_under_their_weight_and_rest() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let text = soaked();
+    let run = |text: &str| {
+        std::fs::write(&path, text).unwrap();
+        rows_of(&path, 2)
+    };
+    let (rows, particles) = run(&text);
+    let size = 2000.0 * 9.81 * 36.0 / (2.0 * 2e6);
+    assert!(last(&rows, "displacement_max (m)") < 1e-9 * size, "{}", last(&rows, "displacement_max (m)"));
+    let column = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    let [y, xx, yy, p] = ["y", "stress_xx", "stress_yy", "pressure"].map(column);
+    for (((y, xx), yy), p) in y.iter().zip(xx).zip(yy).zip(p) {
+        let (weight, k0) = if *y > 3.0 { (600.0 * (6.0 - y), 0.8) } else { (1800.0 + 1000.0 * (3.0 - y), 0.5) };
+        let (vertical, pressure) = (-9.81 * weight, 9810.0 * (6.0 - y));
+        assert!((yy / vertical - 1.0).abs() < 1e-6 && (xx / (k0 * vertical) - 1.0).abs() < 1e-6, "{y}: {xx} {yy}");
+        assert!((p / pressure - 1.0).abs() < 1e-6, "{y}: {p}");
+    }
+    // Water that stands lower is under suction above: the grains bear as much more.
+    let (_, lower) = run(&text.replace("drained = { y_m = [5.9, inf] }\n", "level_m = 4\n"));
+    let more = lower.iter().find(|column| column.name == "stress_yy").unwrap();
+    assert!(more.values.iter().zip(yy).all(|(low, high)| (low - high + 2.0 * 9810.0).abs() < 1e-2));
+}
+
+#[test]
+fn water_whose_weight_acts_on_nothing_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let density = "density_kg_m3 = 1000\n";
+    let later = "[[phases]]\nname = \"later\"\nduration_s = 1\n[output]";
+    for (from, to, said) in [
+        (density, "", "k0 needs a density_kg_m3 of [water]"),
+        (density, "density_kg_m3 = 1000\nlevel_m = 6.1\n", "level_m above the bodies, at 6 m"),
+        (density, "density_kg_m3 = 0\n", "0 where a positive"),
+        ("density_kg_m3 = 1600", "density_kg_m3 = 500", "above that of its water, 500 kg/m³"),
+        ("[0, -9.81] }", "[0, -9.81], rise_s = 1 }", "density_kg_m3 needs one gravity"),
+        ("[0, -9.81] }", "[0, -9.81], phases = [\"rest\"] }", ""),
+        ("[output]", later, ""),
+    ] {
+        let text = soaked();
+        assert!(text.contains(from), "{from}");
+        std::fs::write(&path, text.replacen(from, to, 1)).unwrap();
+        let found = SceneFile::read(&path, 1.0, None).err().map(|e| e.to_string()).unwrap_or_default();
+        assert!(found.contains(said) && found.is_empty() == said.is_empty(), "{to}: {found:?} lacks {said:?}");
+    }
+    let both = soaked().replace("[0, -9.81] }", "[0, -9.81], phases = [\"rest\"] }").replace("[output]", later);
+    std::fs::write(&path, both).unwrap();
+    let found = SceneFile::read(&path, 1.0, None).err().unwrap().to_string();
+    assert!(found.contains("one gravity, in all phases"), "{found}");
+    let weightless = soaked().replace(density, "level_m = 6\n").replace("k0 = 0.5\n", "").replace("k0 = 0.8\n", "");
+    std::fs::write(&path, weightless).unwrap();
+    let found = SceneFile::read(&path, 1.0, None).err().unwrap().to_string();
+    assert!(found.contains("level_m acts on nothing"), "{found}");
+}
+
+#[test]
+fn strengths_that_act_on_nothing_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let pyramid = LEVEL.replacen("law.drucker-prager", "law.mohr-coulomb", 1);
+    let law = "friction_deg = 30\n";
+    let residual = "residual = { cohesion_pa = 0, friction_deg = 25, plastic_strain = 0.1 }\n";
+    let with = |more: &str| format!("{law}{more}");
+    for (text, said) in [
+        (pyramid.replacen("k0 = 0.5", "k0 = 0.5\ncohesion_gradient_pa_m = 1", 1), "cohesion_pa above zero"),
+        (LEVEL.replacen("k0 = 0.8", "k0 = 0.8\ncohesion_gradient_pa_m = 1", 1), "of a law mohr-coulomb"),
+        (pyramid.replacen(law, &with("tension_pa = 1\n"), 1), "tension cut-off"),
+        (pyramid.replacen(law, &with(&residual.replace("25", "31")), 1), "residual sin φ"),
+        (pyramid.replacen(law, &with(&residual.replace("0.1 }", "0 }")), 1), "0 where a positive"),
+        (LEVEL.replacen(law, &with(residual), 1), "residual"),
+        (pyramid.replacen(law, &with(residual), 1), ""),
+    ] {
+        std::fs::write(&path, text).unwrap();
+        let found = SceneFile::read(&path, 1.0, None).err().map(|e| e.to_string()).unwrap_or_default();
+        assert!(found.contains(said) && found.is_empty() == said.is_empty(), "{found:?} lacks {said:?}");
+    }
+}
+
+/// Only a separable wall of an explicit scheme has friction.
+#[test]
+fn friction_of_walls_is_refused_where_it_acts_on_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("own.toml");
+    let explicit = LEVEL.replace("scheme = \"quasi-static-gimp-none\"\ntime_step_s = 1", EXPLICIT);
+    let base = "end = \"lo\", kind = \"roller\" }\n[[supports]]\nwall = { name = \"left\"";
+    let rough = |kind: &str| base.replacen("kind = \"roller\"", &format!("kind = \"{kind}\", friction = 0.3"), 1);
+    for (text, said) in [
+        (explicit.replacen(base, &rough("roller"), 1), "friction of a wall is of kind = \"separable\""),
+        (explicit.replacen(base, &rough("fixed"), 1), "friction of a wall is of kind"),
+        (explicit.replacen(base, &rough("separable"), 1).replace("gimp-none-flip", "gimp-none-xpic2"), "xpic"),
+        (LEVEL.replacen(base, &rough("separable"), 1), "one-sided"),
+        (explicit.replacen(base, &rough("separable"), 1), ""),
+    ] {
+        assert!(text.contains("friction = 0.3"));
+        std::fs::write(&path, text).unwrap();
+        let found = SceneFile::read(&path, 1.0, None).err().map(|e| e.to_string()).unwrap_or_default();
+        assert!(found.contains(said) && found.is_empty() == said.is_empty(), "{found:?} lacks {said:?}");
+    }
+}
