@@ -47,6 +47,7 @@ pub mod scene;
 mod shock;
 mod slope;
 mod slope_stability;
+mod soils;
 mod sparse;
 mod spin;
 mod standing_wave;
@@ -67,6 +68,7 @@ static ALL: LazyLock<Vec<Case>> = LazyLock::new(|| {
         landslide::case(),
         landslide::plane_case(),
         slope_stability::case(),
+        soils::case(),
         mms_axis::case(),
         mms_wall_pressure::case(),
         mms_vortex_ring::case(),

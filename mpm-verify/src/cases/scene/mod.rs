@@ -30,6 +30,7 @@ use crate::case::Tier;
 use crate::cases::prelude::*;
 use crate::error::one_line;
 use crate::files::read_text;
+use crate::job::Column;
 use crate::problem::Driver;
 use checks::checks;
 use fault::Source;
@@ -39,6 +40,7 @@ use shape::Seeds;
 use std::path::Path;
 use std::sync::Mutex;
 use watch::Course;
+pub(super) use watch::{ENERGY, metrics_in};
 
 /// A scene that a file describes.
 pub struct SceneFile {
@@ -130,6 +132,22 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
         ..Case::begun_by("scene", title, &watch::metrics_in(D), Vec::new(), begin)
     };
     Ok(SceneFile { case, spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false }, made, moves, height })
+}
+
+/// What a case measures of a run: of the last rows of its phases, and of its particles at the end.
+pub(super) type Measure = Box<dyn Fn(&[Row], &[Column]) -> Vec<(Metric, f64)> + Send>;
+
+/// Begins a run of a shipped scene in the plane, by the scheme of `spec` and with cells as large as its level says, over
+/// those of the scene.
+pub(super) fn begin(text: &str, spec: &RunSpec, values: &Parameters, measure: Measure) -> Result<Box<dyn Job>, Error> {
+    let source = Source { path: "scene".into(), text: text.to_owned(), weaker: 1.0, memory: None };
+    let mut form = source.form()?;
+    let grid = form.grid.as_mut();
+    grid.cell_size_m.0 *= spec.level.h;
+    grid.cells.iter_mut().for_each(|cells| cells.0 = (f64::from(cells.0) / spec.level.h).round() as u32);
+    form.solver.as_mut().scheme = spec.scheme.to_string();
+    let made = crate::setup::Setup::new(spec, values, Setup::<2>::new(&source, form)?);
+    Ok(Box::new(Driver::new(Course::new(made)?.measured(measure))?))
 }
 
 /// A text that lives as long as the program, which reads few scenes.

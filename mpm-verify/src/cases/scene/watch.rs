@@ -3,16 +3,16 @@
 use super::balance::Balance;
 use super::body::moved;
 use super::form::SupportForm;
-use super::lasting;
 use super::phase::Phase;
 use super::setup::Setup as Made;
+use super::{Measure, lasting};
 use crate::cases::prelude::*;
 use crate::problem;
 use crate::statistics::checkerboard;
 use mpm_core::SymmetricTensor;
 use mpm_core::basis::WallTreatment;
 
-metrics! { pub(super) ALL:
+metrics! { pub(in crate::cases) ALL:
     MASS = "mass", "kg", "mass of the body";
     MOST_MOVED = "displacement_max", "m", "largest displacement of a particle";
     KINETIC = "kinetic_energy", "J", "kinetic energy at the end";
@@ -45,7 +45,7 @@ fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
 const CHARTS: usize = 6;
 
 /// The metrics of a scene in `dimension` dimensions.
-pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
+pub(in crate::cases) fn metrics_in(dimension: usize) -> Vec<Metric> {
     let of = |m: &Metric| Metric { unit: per_depth(m.unit, dimension), ..*m };
     ALL.iter().map(of).collect()
 }
@@ -63,6 +63,8 @@ pub(super) struct Seen {
     /// Impulses (N s) on the parts at the last row.
     impulses: Vec<[f64; 3]>,
     balance: Balance,
+    /// The last row of every phase.
+    ends: Vec<Vec<f64>>,
 }
 
 /// A run of a scene file.
@@ -71,9 +73,16 @@ pub(super) struct Course<const D: usize> {
     /// Names of all parts, and of the columns.
     parts: Vec<String>,
     columns: Vec<&'static str>,
+    /// What a case measures of it.
+    measure: Option<Measure>,
 }
 
 impl<const D: usize> Course<D> {
+    /// The same, of which a case measures something.
+    pub(super) fn measured(self, measure: Measure) -> Self {
+        Self { measure: Some(measure), ..self }
+    }
+
     fn phase(&self, seen: &Seen) -> &Phase {
         &self.setup.phases[seen.phase.min(self.setup.phases.len() - 1)]
     }
@@ -81,6 +90,10 @@ impl<const D: usize> Course<D> {
     /// Rows of all phases.
     fn whole(&self) -> usize {
         self.setup.phases.iter().map(Phase::rows).sum()
+    }
+
+    fn named(&self, row: Vec<f64>) -> Row {
+        Row(self.columns.iter().copied().zip(row).collect())
     }
 
     /// Mean force (N) over the last row on every part of the scene, in all phases' order; zero on one that a phase has not.
@@ -188,7 +201,7 @@ impl<const D: usize> Problem<D> for Course<D> {
             }
         }
         let columns = columns::<D>(setup.scheme, &parts, &setup.several());
-        Ok(Self { setup, parts, columns })
+        Ok(Self { setup, parts, columns, measure: None })
     }
 
     fn discretisation(&self) -> Discretisation {
@@ -198,7 +211,7 @@ impl<const D: usize> Problem<D> for Course<D> {
         };
         Discretisation {
             dim: D,
-            h: self.setup.h,
+            h: self.setup.grid.h,
             ppc: self.setup.per_cell(),
             dt: self.setup.phases[0].dt,
             wall: wall.to_owned(),
@@ -236,7 +249,10 @@ impl<const D: usize> Problem<D> for Course<D> {
         row.extend(self.forces(seen, run));
         let bodies = run.scene().bodies.each.iter().take(self.setup.several().len());
         row.extend(bodies.flat_map(|body| moved(run.particles(), body)));
-        Ok(Row(self.columns.iter().copied().zip(row).collect()))
+        if seen.row == self.phase(seen).rows() {
+            seen.ends.push(row.clone());
+        }
+        Ok(self.named(row))
     }
 
     fn progress(&self, seen: &Seen, _: &problem::Phase<D>) -> f64 {
@@ -293,6 +309,9 @@ impl<const D: usize> Problem<D> for Course<D> {
     }
 
     fn metrics(&self, seen: &Seen, phase: &mut problem::Phase<D>) -> Vec<(Metric, f64)> {
+        let ends: Vec<Row> = seen.ends.iter().map(|row| self.named(row.clone())).collect();
+        let particles = self.particles(seen, Columns::positions(phase.run.as_mut())).done();
+        let measured = self.measure.iter().flat_map(|measure| measure(&ends, &particles));
         let run = phase.run.as_mut();
         let mean = run.field(Field::MeanStress);
         let averaged = run.field(Field::AveragedMeanStress);
@@ -328,6 +347,6 @@ impl<const D: usize> Problem<D> for Course<D> {
             (PLASTIC, most(&plastic)),
         ];
         let all = all.into_iter().filter(|(_, value)| value.is_finite());
-        all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).collect()
+        all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).chain(measured).collect()
     }
 }

@@ -1,0 +1,184 @@
+//! Ground whose answer is known: shipped scenes, run with cells of several sizes.
+//!
+//! Set-up, choices and tolerances: `docs/soils.md`.
+
+use super::scene;
+use crate::cases::prelude::*;
+use crate::job::Column as Values;
+
+choices! {
+    /// What is run.
+    enum Ground { Strip = "strip-load", Wall = "earth-pressure", Sand = "sand-column" }
+}
+
+parameters! {
+    /// Parameters of the case.
+    struct Soils {
+        ground: Ground = Ground::Strip.by_default(), "scene: a strip load on an elastic half-space, a wall that gives way and then pushes, or a column of sand that collapses";
+    }
+}
+
+metrics! { OWN:
+    VERTICAL_ERROR = "vertical_stress_error", "-", "strip load: greatest error of σ_yy over the load, below the depth b and up to 4b";
+    SHEAR_ERROR = "shear_stress_error", "-", "strip load: that of σ_xy";
+    ACTIVE_RATIO = "active_ratio", "-", "earth pressure: force on the wall that gives way over Rankine's";
+    PASSIVE_RATIO = "passive_ratio", "-", "earth pressure: force on the wall that pushes over Rankine's";
+    RUNOUT_RATIO = "runout_ratio", "-", "sand column: way of the front of 99 % of the particles beyond the column's edge, over its width";
+    HEIGHT_RATIO = "height_ratio", "-", "sand column: height that is left over that of the start";
+}
+
+/// Half width of the strip and height of its box (m), and the load (Pa).
+const STRIP: (f64, f64, f64) = (1.0, 16.0, 1000.0);
+/// Active and passive force on the wall (N/m): ½ K ρ g H² − 2c √K H and its counterpart, φ = 30°, c = 1 kPa, H = 5 m.
+fn rankine() -> [f64; 2] {
+    let (weight, cohesion, slope) = (0.5 * 1835.0 * 9.81 * 25.0, 1e3 * 5.0, 3.0_f64);
+    [weight / slope - 2.0 * cohesion / slope.sqrt(), weight * slope + 2.0 * cohesion * slope.sqrt()]
+}
+/// Share by which the ground is strained when its wall moves.
+const STROKE: f64 = 1e-3;
+/// Width and height of the column (m).
+const COLUMN: f64 = 0.1;
+/// Share of the error that halving the cells leaves, of first order, and of orders that are not yet asymptotic.
+const HALVED: f64 = 0.6;
+
+/// Greatest errors of σ_yy and σ_xy over the load: those of a half-space are (2θ + sin 2θ)/π and alike.
+fn strip(x: &[f64], y: &[f64], stresses: [&[f64]; 2]) -> [f64; 2] {
+    let (half, height, load) = STRIP;
+    let mut worst = [0.0_f64; 2];
+    for (k, x) in x.iter().enumerate() {
+        let depth = height - y[k];
+        if (half..4.0 * half).contains(&depth) && *x < 3.0 * half {
+            let [left, right] = [x + half, x - half].map(|x| x.atan2(depth));
+            let (angle, turn) = (left - right, left + right);
+            let exact = [-(angle + angle.sin() * turn.cos()) / PI, angle.sin() * turn.sin() / PI];
+            for ((worst, stress), exact) in worst.iter_mut().zip(stresses).zip(exact) {
+                *worst = worst.max((stress[k] / load - exact).abs());
+            }
+        }
+    }
+    worst
+}
+
+/// What a run of a scene tells: the last rows of its phases and its particles at the end.
+fn measure(ground: Ground, ends: &[Row], particles: &[Values]) -> Vec<(Metric, f64)> {
+    let column = |name: &str| particles.iter().find(|c| c.name == name).map_or(&[][..], |c| &c.values[..]);
+    let force = |row: &Row| row.0.iter().find(|(name, _)| name.starts_with("wall_x")).map_or(f64::NAN, |(_, x)| *x);
+    let (x, y) = (column("x"), column("y"));
+    match ground {
+        Ground::Strip => {
+            let [vertical, shear] = strip(x, y, ["stress_yy", "stress_xy"].map(column));
+            vec![(VERTICAL_ERROR, vertical), (SHEAR_ERROR, shear)]
+        }
+        Ground::Wall => {
+            let ratios = ends.iter().zip(rankine()).map(|(row, exact)| force(row) / exact);
+            [ACTIVE_RATIO, PASSIVE_RATIO].into_iter().zip(ratios).collect()
+        }
+        Ground::Sand => {
+            let mut places = x.to_vec();
+            places.sort_by(f64::total_cmp);
+            let front = places.get(places.len() - 1 - places.len() / 100).copied().unwrap_or(f64::NAN);
+            let beside = x.iter().zip(y).filter(|(x, _)| **x < 0.1 * COLUMN).map(|(_, y)| *y);
+            vec![(RUNOUT_RATIO, front / COLUMN - 1.0), (HEIGHT_RATIO, beside.fold(0.0, f64::max) / COLUMN)]
+        }
+    }
+}
+
+fn begin(spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error> {
+    let ground = Soils::read(values)?.ground;
+    let text = match ground {
+        Ground::Strip => include_str!("../../scenes/strip-load.toml"),
+        Ground::Wall => include_str!("../../scenes/earth-pressure.toml"),
+        Ground::Sand => include_str!("../../scenes/sand-column.toml"),
+    };
+    scene::begin(text, spec, values, Box::new(move |ends, particles| measure(ground, ends, particles)))
+}
+
+pub(super) fn case() -> Case {
+    let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &[RemedyName::None]);
+    let sand = pairs(&[Gimp, Bspline2], &[RemedyName::None]);
+    let plan = Plan::of(vec![Level::new("c1", 1.0), Level::new("c2", 0.5), Level::new("c4", 0.25)])
+        .runs(Pr, "c1", &statics, "")
+        .runs(Pr, "c1", &statics, "ground=earth-pressure")
+        .runs(Pr, "c1", &sand[1..], "ground=sand-column")
+        .runs(Nightly, "c1 c2 c4", &statics, "")
+        .runs(Nightly, "c1 c2", &statics, "ground=earth-pressure")
+        .runs(Nightly, "c1 c2 c4", &sand, "ground=sand-column");
+    Case {
+        cost: Box::new(|spec| spec.level.h.powi(-3)),
+        ..Case::begun_by("soils", "Ground against exact solutions", &metrics(), Soils::list(), Box::new(begin))
+    }
+    .planned(plan)
+    .described("Shipped scenes of ground: a strip load on an elastic half-space, by a traction; a wall between which and \
+        another one ground yields, actively and passively; a column of sand that collapses. Levels halve and quarter their cells.")
+    .reference("Flamant's solution of a line load, integrated over the strip.")
+    .reference("Rankine (1857): K = tan²(π/4 ∓ φ/2).")
+    .reference("Lube et al. (2005), doi:10.1103/PhysRevE.72.041301: experiments on columns of sand, validation.")
+    .limit("The strip's half-space is a box of 16 half widths.")
+    .limit("Particles of sand that have parted have no stress and fly: the front runs on with smaller cells.")
+    .wanted("answer", "stresses below the strip, force on the wall or the column's energy", "stress rankine energy")
+    .checks(checks())
+    .headline(VERTICAL_ERROR, "σ_yy (% of q)", 100.0, 2)
+    .headline(SHEAR_ERROR, "σ_xy (% of q)", 100.0, 2)
+    .headline(ACTIVE_RATIO, "active (–)", 1.0, 4)
+    .headline(PASSIVE_RATIO, "passive (–)", 1.0, 4)
+    .headline(RUNOUT_RATIO, "run-out (–)", 1.0, 2)
+    .quantity(error(VERTICAL_ERROR, "greatest error of σ_yy over q"))
+    .quantity(error(SHEAR_ERROR, "greatest error of σ_xy over q"))
+    .watched(&["displacement_max", "stored_energy"])
+    .sketch(Sketch::of("The right half of an elastic half-space, a box on rollers; a traction presses on a strip at its upper left corner.")
+        .body([[0.0, 0.0], [16.0, 0.0], [16.0, 16.0], [0.0, 16.0]])
+        .held([0.0, 0.0], [16.0, 0.0])
+        .held([0.0, 16.0], [0.0, 0.0])
+        .held([16.0, 0.0], [16.0, 16.0])
+        .load([0.5, 18.0], [0.5, 16.0])
+        .length([0.0, 18.5], [1.0, 18.5], "b"))
+    .tables(vec![
+        table("strip-load", Ground::Strip).metric("σ_yy off by", VERTICAL_ERROR, percent(1)).metric("σ_xy off by", SHEAR_ERROR, percent(1)).cpu(),
+        table("earth-pressure", Ground::Wall).metric("active", ACTIVE_RATIO, fixed(4)).metric("passive", PASSIVE_RATIO, fixed(4)).cpu(),
+        table("sand-column", Ground::Sand).metric("run-out", RUNOUT_RATIO, fixed(2)).metric("height left", HEIGHT_RATIO, fixed(2)).cpu(),
+    ])
+}
+
+fn metrics() -> Vec<Metric> {
+    [OWN.to_vec(), scene::metrics_in(2)].concat()
+}
+
+/// The runs of a ground.
+fn table(name: &'static str, ground: Ground) -> ResultTable {
+    let own = move |r: &Record| Setup::<Soils>::holds(r, |s| s.ground == ground);
+    ResultTable::of(name, own).by(&[SCHEME, ("cells", |r| format!("h/{}", &r.level[1..]))])
+}
+
+fn checks() -> Vec<Check> {
+    type Check = CheckOf<Soils>;
+    // h/b over the b of the strip, and h/H over the height of the wall.
+    let half = |s: &Run<Soils>| s.record.discretisation.h / STRIP.0 / PI;
+    let wall = |s: &Run<Soils>| if s.basis() == Gimp { STROKE } else { s.record.discretisation.h / 5.0 };
+    let by = |ground: Ground| move |s: &Run<Soils>| s.ground == ground;
+    vec![
+        Check::truth("stress", "strip load: stresses those of a half-space within h/(π b) of the load")
+            .when(by(Ground::Strip))
+            .at_most(VERTICAL_ERROR, half)
+            .at_most(SHEAR_ERROR, half)
+            .because("a cell has the stress of its middle, and particles stand up to h/2 off it along both axes, where stresses change by q/(π b) a length at most"),
+        Check::truth("converges", "strip load, three levels: halving the cells leaves at most 0.6 of the errors")
+            .study(|records| {
+                let own = records.iter().filter(|r| r.is_default() && r.status == Status::Ok);
+                let of = |(scheme, runs): (Scheme, Vec<&Record>)| {
+                    let [.., coarse, fine] = runs[..] else { return Vec::new() };
+                    let left = |metric: Metric| Finding::at_most(format!("{} of {scheme}", metric.name), fine.metric(metric) / coarse.metric(metric), HALVED, "first order at least");
+                    [VERTICAL_ERROR, SHEAR_ERROR].map(left).into()
+                };
+                ladders_by(own, |r| r.scheme()).into_iter().flat_map(of).collect()
+            }),
+        Check::truth("rankine", "earth pressure: forces Rankine's within 0.1 % with GIMP, and within h/H with splines")
+            .when(by(Ground::Wall))
+            .within(ACTIVE_RATIO, |_| 1.0, wall)
+            .within(PASSIVE_RATIO, |_| 1.0, wall)
+            .because("the stroke makes the ground 3·10⁻⁴ higher and denser; the place of a wall of held nodes is known to half a cell of splines, and thrust grows with the square"),
+        Check::truth("energy", "sand column: kinetic energy is at most what gravity gave and stresses and losses took, by rounding")
+            .when(by(Ground::Sand))
+            .at_most(scene::ENERGY, |_| 1.0)
+            .because("a transfer with a lumped mass gives no energy"),
+    ]
+}
