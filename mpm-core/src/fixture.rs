@@ -1,15 +1,11 @@
-//! Fixtures for the tests of several solvers and laws.
+//! Fixtures for the tests of several solvers.
 
 use crate::grid::{Axis, Grid};
 use crate::implicit::unknowns::Pattern;
-use crate::material::{AnyLaw, Law, State};
 use crate::memory::Memoryless;
-use crate::number::{EIGHT, Eight};
 use crate::particles::Particles;
 use crate::stage::Constraint;
-use crate::tensor::SymmetricTensor;
-use nalgebra::{Matrix3, SMatrix, Vector3};
-use proptest::prelude::*;
+use nalgebra::SMatrix;
 
 /// Moves the nodes at the faces of the grid, and beyond, as the field u = G x with this G does.
 pub(crate) struct Affine<const D: usize>(pub(crate) SMatrix<f64, D, D>);
@@ -80,46 +76,4 @@ pub(crate) fn filling<const D: usize>(count: [usize; D], spacing: f64, origin: f
     };
     let places = (0..count.iter().product()).map(place).collect();
     Particles::new(places, spacing.powi(D as i32), 1000.0, [0.5 * spacing; D]).unwrap()
-}
-
-/// The deformation gradient of logarithmic stretches along the axes.
-pub(crate) fn stretches(logarithms: [f64; 3]) -> Matrix3<f64> {
-    Matrix3::from_diagonal(&Vector3::from(logarithms).map(f64::exp))
-}
-
-/// That of simple shear by an angle whose tangent is `tangent`.
-pub(crate) fn sheared(tangent: f64) -> Matrix3<f64> {
-    let mut f = Matrix3::identity();
-    f[(0, 1)] = tangent;
-    f
-}
-
-/// Fewer than `most` increments of the deformation gradient, all of whose entries are those of the identity to `size`.
-pub(crate) fn increments(size: f64, most: usize) -> impl Strategy<Value = Vec<Matrix3<f64>>> {
-    let gradient = prop::array::uniform9(-size..size);
-    prop::collection::vec(gradient.prop_map(|a| Matrix3::identity() + Matrix3::from_row_slice(&a)), 1..most)
-}
-
-/// Steps from undeformed material along increments of the deformation gradient: the last stress and state.
-pub(crate) fn drive<M: Law>(law: &M, path: impl IntoIterator<Item = Matrix3<f64>>) -> (SymmetricTensor, M::State) {
-    let start = (SymmetricTensor::default(), law.initial_state());
-    path.into_iter().fold(start, |(_, state), increment| law.response(&increment, 1.0, &state))
-}
-
-/// Stress and state of eight particles that deform by `delta_f` over a second: side by side, and each alone.
-pub(crate) fn side_by_side<M: Law + 'static>(
-    law: &M,
-    delta_f: &[Matrix3<f64>; EIGHT],
-    states: &mut [M::State; EIGHT],
-) -> [[(SymmetricTensor, M::State); 2]; EIGHT] {
-    let before = *states;
-    let mut rows = Vec::new();
-    before.iter().for_each(|state| M::State::write::<f64>(state, |_, number| rows.push(*number)));
-    let entries: [_; 9] = std::array::from_fn(|n| Eight::new(delta_f.map(|f| f[(n / 3, n % 3)])));
-    let mut stresses = [SymmetricTensor::default(); EIGHT];
-    AnyLaw::update_eight(law, &entries, 1.0, Eight::ONE, &mut rows, &mut stresses);
-    for (state, row) in states.iter_mut().zip(rows.chunks_exact(M::State::NUMBERS)) {
-        *state = M::State::read(|i| row[i]);
-    }
-    std::array::from_fn(|k| [(stresses[k], states[k]), law.response(&delta_f[k], 1.0, &before[k])])
 }

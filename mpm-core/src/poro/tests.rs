@@ -1,18 +1,16 @@
 //! Against exact answers, difference quotients and closed forms.
 
 use super::*;
+use crate::Particles;
 use crate::basis::{Gimp, Linear};
 use crate::bodies::Bodies;
 use crate::error::Fault;
 use crate::fixture::{Affine, filling};
 use crate::grid::{Axis, Grid, Side};
 use crate::lattice::Lattice;
-use crate::material::{Hencky, ImprovedHencky};
-use crate::material::{Law, shared};
-use crate::memory::Memory;
+use crate::material::{ImprovedHencky, Law, shared};
 use crate::space::embed;
-use crate::stage::{End, RigidNodes, Wall, WallKind};
-use crate::{Part, Particles};
+use crate::stage::{End, Wall, WallKind};
 use nalgebra::{SMatrix, SVector};
 
 const H: f64 = 0.125;
@@ -32,7 +30,6 @@ const SPACES: [PressureSpace; 3] =
 
 mod carried;
 mod column;
-mod ghosts;
 mod outside;
 mod response;
 mod tangent;
@@ -67,11 +64,6 @@ fn standing<const D: usize, M: Law + 'static>(
 
 fn water<const D: usize>() -> Water<D> {
     Water::new(POROSITY, kozeny_carman())
-}
-
-/// Ghost penalties, and steps in which pressures diffuse over this `area` (m²).
-fn diffusing(area: f64) -> Settings {
-    Settings::new(area / (KAPPA * MODULUS)).ghosts(0.1, 0.01)
 }
 
 fn straight<const D: usize>(x: &[f64; D]) -> ([f64; D], SMatrix<f64, D, D>) {
@@ -159,81 +151,4 @@ fn affine_fields_pass_the_patch_test() {
         reproduces_affine_fields::<2, Means<2>>(isochoric);
     }
     reproduces_affine_fields::<3, Hats<3>>(true);
-}
-
-/// Grains as heavy as water in water at rest: the pressure that there was stays, linear in depth, and nothing moves.
-fn stays_at_rest<const D: usize, I: OfHats<D>>(space: PressureSpace) {
-    let mut acceleration = [0.0; D];
-    acceleration[D - 1] = -10.0;
-    let depth = |x: &[f64; D]| 1e4 * (TOP - x[D - 1]);
-    for tangent in [Tangent::Symmetric, Tangent::Consistent] {
-        let water = water()
-            .gravity(Gravity { water: 1000.0, grains: 1000.0, acceleration })
-            .start(depth)
-            .drained(|x| x[D - 1] > TOP - 1e-9);
-        let scene = standing::<D, _>(porous(), straight);
-        let settings = Settings::new(1.0).pressure_space(space).tangent(tangent);
-        let mut solver = Solver::<D>::new::<I>(scene, water, settings).unwrap();
-        solver.advance(2).unwrap();
-        let p = solver.particles();
-        for k in 0..p.len() {
-            let error = solver.pores.pressure[k] - depth(&p.position[k]);
-            assert!(error.abs() < 1e-5, "{error}");
-            assert!((p.position[k][D - 1] - p.reference[k][D - 1]).abs() < 1e-10);
-        }
-    }
-}
-
-#[test]
-fn hydrostatic_water_stays_at_rest() {
-    for space in SPACES {
-        stays_at_rest::<1, Hats<1>>(space);
-        stays_at_rest::<1, Means<1>>(space);
-        stays_at_rest::<2, Hats<2>>(space);
-        stays_at_rest::<2, Means<2>>(space);
-    }
-}
-
-#[test]
-fn what_is_not_allowed_is_refused_by_name() {
-    let column = || standing::<1, _>(porous(), straight);
-    let refused = |water: Water<1>, settings: Settings, what: &str| {
-        let error = Solver::<1>::new::<Means<1>>(column(), water, settings).err().unwrap();
-        assert!(error.to_string().contains(what), "{error}");
-    };
-    let some = Conductivity::Constant(KAPPA);
-    let settings = Settings::new(1.0);
-    for n in [0.0, 1.0, -0.1, f64::NAN] {
-        refused(Water::new(n, some), settings, "porosity");
-    }
-    let dry = Conductivity::Constant(0.0);
-    refused(Water::new(POROSITY, dry).drained(|_| true), settings, "conductivity of a body that drains");
-    let face = Face::drained(&column().bodies.particles, topmost, (0, End::Hi), 1.0);
-    refused(Water::new(POROSITY, dry).face(face), settings, "conductivity of a body that drains");
-    assert!(Solver::<1>::new::<Means<1>>(column(), Water::new(POROSITY, dry), settings).is_ok());
-    let other = "porosity of the water = 0.3 is not allowed: that of the solid's law";
-    refused(Water::new(0.3, some), settings, other);
-    let negative = Conductivity::KozenyCarman(-1.0);
-    refused(Water::new(POROSITY, negative), settings, "conductivity");
-    let logarithmic = settings.volume_rate(VolumeRate::Logarithmic);
-    refused(Water::new(POROSITY, some), logarithmic, "consistent");
-    refused(Water::new(POROSITY, some), Settings::new(0.0), "time step");
-    let ghost = settings.ghosts(-1.0, 0.0);
-    refused(Water::new(POROSITY, some), ghost, "ghost penalty");
-    let none = PressureSpace::Projected { strength: 0.0 };
-    let settings = settings.pressure_space(none);
-    refused(Water::new(POROSITY, some), settings, "projection");
-}
-
-#[test]
-fn a_cell_of_the_pressure_holds_two_of_the_displacement() {
-    let mut scene = standing::<1, _>(porous(), straight);
-    scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
-    let water = || Water::new(POROSITY, Conductivity::Constant(KAPPA));
-    let equal = Settings::new(1.0).pressure_space(PressureSpace::Equal);
-    let refused = Solver::<1>::new::<Hats<1>>(scene, water(), Settings::new(1.0));
-    assert!(refused.err().unwrap().to_string().contains("even"));
-    let mut scene = standing::<1, _>(porous(), straight);
-    scene.grid = Grid::new(H, [Axis::bounded(0.0, HIGH + 3, (Side::Wall, Side::Open))]).unwrap();
-    assert!(Solver::<1>::new::<Hats<1>>(scene, water(), equal).is_ok());
 }

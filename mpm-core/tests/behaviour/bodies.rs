@@ -1,6 +1,6 @@
 //! Several bodies: layers that stick, and bodies that slide on each other.
 
-use crate::scenes::{DENSITY, block, law, open_grid, remedies, swirl, with_threads};
+use crate::scenes::{DENSITY, block, law, open_grid, places, remedies, swirl, with_threads};
 use mpm_core::basis::{CubicBSpline, Gimp, Linear, QuadraticBSpline};
 use mpm_core::explicit::remedy::{Fbar, Form};
 use mpm_core::explicit::transfer::{Apic, Flip, Musl, Xpic};
@@ -34,12 +34,6 @@ fn of_law<const D: usize>() -> Settings<D> {
 #[expect(clippy::print_stdout, reason = "what the page shows is read from a test's output")]
 fn told(what: &str, found: f64, exact: f64) {
     println!("{what}: {found:.4e}, exact {exact:.4e}");
-}
-
-/// Positions by identity.
-fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
-    let p = run.particles();
-    p.seeded(|k| p.position[k])
 }
 
 #[test]

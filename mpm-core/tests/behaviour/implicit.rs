@@ -35,8 +35,10 @@ macro_rules! every_basis {
 
 // After the macro, which they use.
 mod cells;
+mod contact;
 mod dynamics;
 mod guess;
+mod take_over;
 
 /// Two places in a cell, in shares of it.
 #[derive(Clone, Copy)]

@@ -19,6 +19,7 @@ mod mapping;
 mod memory;
 mod modes;
 mod monitor;
+mod poro;
 mod reach;
 mod rest;
 mod rigid_nodes;

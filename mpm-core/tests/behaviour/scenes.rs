@@ -3,7 +3,7 @@
 use mpm_core::explicit::remedy::{Fbar, Form, Onto, Standard};
 use mpm_core::explicit::{Remedy, Settings, courant_time_step};
 use mpm_core::material::{Law, NeoHookean};
-use mpm_core::{Axis, Bodies, Grid, Particles, Scene};
+use mpm_core::{Axis, Bodies, Grid, Particles, Scene, Simulation};
 
 pub(crate) const DENSITY: f64 = 2.0;
 
@@ -59,6 +59,12 @@ pub(crate) fn remedies<const D: usize>() -> Vec<Box<dyn Remedy<D>>> {
         Box::new(Fbar::new(Form::Bbar).onto(Onto::Patches)),
         Box::new(Fbar::new(Form::Consistent).onto(Onto::Patches).relaxing(10.0)),
     ]
+}
+
+/// Positions by identity.
+pub(crate) fn places(run: &dyn Simulation<2>) -> Vec<[f64; 2]> {
+    let p = run.particles();
+    p.seeded(|k| p.position[k])
 }
 
 /// Result of `work` in a pool of `threads` threads.

@@ -4,7 +4,7 @@ use super::*;
 use mpm_core::stage::{Amplitude, Gravity, RigidNodes};
 
 const MIDPOINT: TimeRule = TimeRule::Midpoint { lumped: 0.05 };
-const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
+pub(super) const NEWMARK: TimeRule = TimeRule::Newmark { alpha: 0.25, delta: 0.5 };
 /// A wave crosses a cell in 25 ms.
 const DT: f64 = 0.01;
 
@@ -22,7 +22,7 @@ pub(super) fn tumbling<M: Law + 'static>(law: M) -> Scene<2> {
     scene
 }
 
-fn rubber() -> NeoHookean {
+pub(super) fn rubber() -> NeoHookean {
     NeoHookean::new(YOUNG, POISSON).unwrap()
 }
 
