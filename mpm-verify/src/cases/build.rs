@@ -6,6 +6,8 @@ use crate::prelude::*;
 /// Young's modulus (Pa) and density (kg/m³) before it deforms of a body whose problem prescribes neither.
 pub(super) const YOUNG_MODULUS: f64 = 1e6;
 pub(super) const DENSITY: f64 = 1000.0;
+/// Distance d̂ at which a barrier begins, in cells.
+pub(super) const REACH: f64 = 0.25;
 
 impl<P: ParameterSet> Setup<P> {
     /// Distance of particles (m), by the parameter `ppc_per_direction`.

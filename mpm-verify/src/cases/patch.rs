@@ -25,8 +25,7 @@ const DOWN: [f64; 3] = [0.6, 0.8, 1.0];
 const MARGIN: f64 = 3.0;
 /// Cells of room beyond the body's way.
 const ROOM: f64 = 3.0;
-/// Rounding of a few steps, and last bits of a coordinate that a step may lose.
-const ROUNDING: f64 = 1e-9;
+/// Last bits of a coordinate that a step may lose.
 const LAST_BITS: f64 = 4.0;
 /// An error that tells nothing.
 const VAGUE: f64 = 0.1;

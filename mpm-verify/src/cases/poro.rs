@@ -12,8 +12,6 @@ pub(super) const PROJECTION: Parameter =
     real("-", "1", 0.01, 100.0).named("projection").meaning("ppp: its strength times 2G");
 pub(super) const TOLERANCE: Parameter =
     real("-", "1e-10", 1e-13, 1e-8).named("tolerance").meaning("residual of a converged step over what it balances");
-/// Smaller values are rounding.
-pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Height (m) of a column, particles a cell, and empty cells above.
 pub(super) const HEIGHT: f64 = 1.0;

@@ -1,7 +1,7 @@
 //! The names that nearly every case uses.
 
 pub(super) use super::analysis::{Analysis, case_of, visited};
-pub(super) use super::build::{by_columns, by_rows, clamp, lattice, middles, roller, stretched};
+pub(super) use super::build::{REACH, by_columns, by_rows, clamp, lattice, middles, roller, stretched};
 pub(super) use super::checks::*;
 pub(super) use super::family::{
     BASES, REMEDIES, implicit, levels, main_pairs, other_transfers, pairs, remedy_cost, transfers,

@@ -10,8 +10,6 @@ use run::HALF_AXES;
 const LEVELS: [Level; 1] = [Level { name: "h0.1", h: 0.1 }];
 /// Unknowns of the displacement, at most.
 const UNKNOWNS: f64 = 500.0;
-/// Rounding of equal values of two runs.
-const ROUNDING: f64 = 1e-9;
 /// Places from which on a spread is judged.
 const PLACES: usize = 40;
 

@@ -3,8 +3,6 @@
 use super::*;
 use crate::exact::consolidation::layer;
 
-/// The order in h that theory gives.
-const THEORY: f64 = 2.0;
 /// Cells of the pressure in the layer at the drained top from which on an order is asymptotic.
 const RESOLVING: f64 = 2.0;
 /// The load at which no particle crosses a cell.
@@ -102,7 +100,7 @@ fn orders(records: &[Record]) -> Vec<Finding> {
             let order = observed_order(&runs, |r| r.discretisation.h, error);
             let name = format!("order of {} of {scheme} at {load} M₀", error.name);
             let why = "displacements and pressures are linear in a cell, stresses and fluxes means over domains";
-            Finding::above(name, order, THEORY - SLACK, why)
+            Finding::above(name, order, FORMAL - SLACK, why)
         })
     };
     ladders.into_iter().flat_map(of).collect()
@@ -117,7 +115,7 @@ fn richardson(records: &[Record]) -> Vec<Finding> {
         let exact = solution(exact.load, Some(f64::from(exact.refine)));
         let exact = exact.first()?.settlement;
         let settled = [coarse, middle, fine].map(|r| r.metric(SETTLEMENT_EARLY));
-        let index = index(settled, THEORY, resolves(coarse));
+        let index = index(settled, FORMAL, resolves(coarse));
         let metric = format!("error of {} of {scheme} at {load} M₀", SETTLEMENT_EARLY.name);
         let why = format!("Roache's index of the two finest, order {:.2}, factor {}", index.order, index.safe);
         Some(Finding::at_most(metric, (settled[2] - exact).abs(), index.bound, why))

@@ -6,7 +6,7 @@ mod checks;
 pub(super) mod foreign;
 mod run;
 
-use super::poro::{HEIGHT, ROUNDING, column_sketch, spaces};
+use super::poro::{HEIGHT, column_sketch, spaces};
 use crate::cases::prelude::*;
 use crate::exact::consolidation::{At, solution};
 

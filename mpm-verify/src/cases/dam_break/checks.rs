@@ -9,8 +9,6 @@ const AT_REST: (f64, f64) = (1e-3, 5e-3);
 /// Rms error of the pressure at rest over that at the floor on cells of [`PROFILE_CELL`] (m).
 const PROFILE: f64 = 0.01;
 const PROFILE_CELL: f64 = 0.25;
-/// Rounding of sums over steps and particles.
-const ROUNDING: f64 = 1e-9;
 /// Cells (m) from which on splashes are fine enough to show what coarse cells swallow.
 const FINE: f64 = 0.125;
 /// Cells (m) beyond which they swallow even what `fbar-rate` makes.

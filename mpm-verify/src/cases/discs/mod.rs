@@ -14,8 +14,7 @@ use TransferName::{Apic, Flip, Musl, Xpic2};
 
 /// Roundings of a step's sum of forces, in shares of the discs' momentum.
 const ROUNDINGS: f64 = 16.0;
-/// Largest gain of a rule that conserves energy, and least of one that does not.
-const NO_GAIN: f64 = 1e-4;
+/// Least gain of a rule that does not conserve energy.
 const GAINED: f64 = 1e-3;
 /// Rounding after its growth in the collision.
 const MIRRORED: f64 = 1e-6;

@@ -14,8 +14,6 @@ const COARSE: &str = "h0.5";
 const OVERBURDEN: f64 = 0.02;
 /// Cells over the height at which too few carry its modes.
 const FEW: f64 = 0.2;
-/// Rounding of sums over particles.
-const ROUNDING: f64 = 1e-9;
 /// Relative rounding after the steps of the gravity stage: a hundredth of the change by F̄.
 const GROWN_ROUNDING: f64 = 1e-4;
 /// Relative difference of the settlement at rest from plane strain: of F̄, which scales three directions there and two here.
@@ -36,8 +34,6 @@ const LEAKS: &str =
     "`wall-line` splines do not interpolate at the floor, and a particle creeps through it: docs/method.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
-/// γ H over the undrained shear strength from which ground flows like water: as in the case `excavation`.
-const SPLASHING: f64 = 40.0;
 /// Share of the ground that has moved from which on the slope has failed.
 const FAILED: f64 = 0.01;
 

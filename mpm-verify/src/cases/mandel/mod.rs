@@ -5,7 +5,7 @@
 
 mod run;
 
-use super::poro::{self, ROUNDING, spaces};
+use super::poro::{self, spaces};
 use crate::cases::prelude::*;
 use run::{END, HEIGHT, WIDTH};
 

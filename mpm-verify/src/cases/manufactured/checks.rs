@@ -15,14 +15,11 @@ use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRES
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
-use claims::{FORMAL, STALLED};
+use claims::STALLED;
 
 /// A check of a run whose parameters are read by name.
 pub(in crate::cases) type Gate = CheckOf<()>;
 
-/// Largest relative error of a squared frequency over (kh)², quadratic splines with fbar-rate where all of
-/// the stress is averaged, rounded up: docs/remedy.md.
-const DISPERSION: f64 = 0.8;
 /// Roundings in the mass of a particle.
 const ROUNDINGS: f64 = 10.0;
 

@@ -3,8 +3,6 @@
 use super::*;
 use crate::cases::manufactured::checks::ladders;
 
-/// Share of (kh)² by which an equation errs at most: that of the stiffness, docs/remedy.md.
-const DISPERSION: f64 = 0.8;
 /// Reason not to judge linear functions once particles have moved.
 const MOVED: &str = "displaced particles shift the quadrature of linear functions, whose gradients jump";
 /// Least c_v Δt/h² of a run whose water flows: the bound of two grids in docs/poromechanics.md, the largest.

@@ -11,8 +11,7 @@ const HEIGHT: f64 = 1.0;
 const ACROSS: usize = 4;
 /// Place among the constraints of what holds the upper end.
 const UPPER_END: usize = 2;
-/// Distance at which the barrier begins, in cells, and the share of it at which it carries the weight.
-const REACH: f64 = 0.25;
+/// Share of the barrier's distance at which it carries the weight.
 const CARRIES: f64 = 0.5;
 
 /// Observations: whether a step found no equilibrium, and the most parts of a step.

@@ -6,7 +6,7 @@ mod run;
 
 use crate::cases::prelude::*;
 use crate::exact::stretched_lattice::FREE;
-use run::{SWING, Stretching};
+use run::Stretching;
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 0.5 / FREE as f64 }];
 /// The plane, crushed to the same J.

@@ -10,8 +10,6 @@ use mpm_core::{Frame, Memoryless};
 const HELD: usize = 2;
 /// The share of its exact value below which the mean stress of the free part says that it has torn.
 const TORN: f64 = 0.5;
-/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
-pub(super) const SWING: f64 = 2.0;
 /// Steps of the stretch in which a prediction is looked for.
 const SCAN: f64 = 1e-3;
 const LOOK: f64 = 0.01;

@@ -9,7 +9,7 @@ mod figures;
 mod reference;
 mod run;
 
-use super::poro::{ROUNDING, spaces};
+use super::poro::spaces;
 use crate::cases::prelude::*;
 use run::SIDE;
 

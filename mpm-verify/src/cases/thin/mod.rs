@@ -9,8 +9,6 @@ use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
 
 /// Relative difference of a beam's frequency by how its sections shear.
 const SECTIONS: f64 = 2e-3;
-/// Formal order of the error.
-const FORMAL: f64 = 2.0;
 /// Rounding of a frequency that is read from zeros of a series.
 const READ: f64 = 1e-3;
 /// Least share of the amplitude at which the zeros are those of the first mode.

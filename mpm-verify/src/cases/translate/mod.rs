@@ -9,10 +9,6 @@ use crate::cases::prelude::*;
 use run::{PERIOD, Translation};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
-/// Rounding of a stress over many steps.
-const ROUNDING: f64 = 1e-9;
-/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
-const SWING: f64 = 2.0;
 /// Fastest body whose noise is predicted: beyond it the wave of the lattice is as fast as sound.
 const SLOW: f64 = 0.06;
 

@@ -11,9 +11,8 @@ const ACROSS: usize = 4;
 const WAVES: i32 = 3;
 /// Rows in a cell.
 const ROWS: f64 = 2.0;
-/// Smaller values are rounding.
+/// Less noise is rounding.
 const LEAST_NOISE: f64 = 1e-10;
-const LEAST_ERROR: f64 = 1e-12;
 
 pub(super) struct Translation {
     setup: Setup<Translate>,
