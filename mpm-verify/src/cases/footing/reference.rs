@@ -124,25 +124,18 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// Which elements have a footing that acts as wide as that of a scheme.
-enum Elements {
-    /// Elements of vanishing size.
-    Vanishing,
-    /// As large as the cells.
-    OfCells,
-}
-
 /// The least domain (in B) that leaves Prandtl's mechanism room.
 const ROOM: i32 = 3;
 
 impl Setup<Footing> {
-    fn elements(&self) -> Result<Elements, String> {
+    /// Whether elements of vanishing size have a footing that acts as wide as that of the scheme; if not, those as large as cells.
+    fn is_of_vanishing(&self) -> Result<bool, String> {
         if self.presses_by_barrier() {
             return Err("no elements press through a barrier: see contacts-agree".to_owned());
         }
         match self.effective_width().0 {
-            width if width == WIDTH => Ok(Elements::Vanishing),
-            width if width == WIDTH + self.h => Ok(Elements::OfCells),
+            width if width == WIDTH => Ok(true),
+            width if width == WIDTH + self.h => Ok(false),
             _ => Err("no elements act as wide as splines with nodes on grid lines".to_owned()),
         }
     }
@@ -159,7 +152,7 @@ impl Setup<Footing> {
     pub(super) fn reference_curve(&self) -> Result<Curve, String> {
         let document = document()?;
         self.has_room()?;
-        if let Elements::Vanishing = self.elements()? {
+        if self.is_of_vanishing()? {
             if !self.rough {
                 return Err("the extrapolated reference is that of a rough footing".to_owned());
             }
@@ -218,12 +211,11 @@ impl Setup<Footing> {
                 && close(s.domain, f64::from(self.domain_depth))
         });
         let Some(slopes) = found else { return Err(format!("no slope for ν = {ratio} and this domain")) };
-        let slope = match self.elements()? {
-            Elements::Vanishing => slopes.slope,
-            Elements::OfCells => {
-                let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
-                same.ok_or_else(|| format!("no slope with elements of {h} m"))?.slope
-            }
+        let slope = if self.is_of_vanishing()? {
+            slopes.slope
+        } else {
+            let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
+            same.ok_or_else(|| format!("no slope with elements of {h} m"))?.slope
         };
         Ok(slope * strength_ratio())
     }
