@@ -46,12 +46,11 @@ pub(super) fn case() -> Case {
 }
 
 fn plan() -> Plan {
-    let two = [Gimp, Bspline2];
-    let few = pairs(&two, &COMPARED);
+    let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    let limit = pairs(&two, &[RemedyName::None, FbarRecursive, FbarConsistent]);
+    let limit = pairs(&SMOOTH, &[RemedyName::None, FbarRecursive, FbarConsistent]);
     let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark]
-        .map(|rule| implicit(&[rule], &two, &[RemedyName::None, FbarConsistent]));
+        .map(|rule| implicit(&[rule], &SMOOTH, &[RemedyName::None, FbarConsistent]));
     let near = ["0.49999", "0.499999", "0.4999999"];
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));

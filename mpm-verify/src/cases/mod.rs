@@ -35,7 +35,6 @@ mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
 mod newton;
-mod noise;
 mod observe;
 pub(crate) mod parameters;
 mod patch;

@@ -138,13 +138,13 @@ fn checks() -> Vec<Check> {
         Check::truth("affine", "apic, and flip three cells inside: motion and stress of a constant ∇v exact within what stress moves, moments change and (flip) the lattice strains")
             .when(|b| b.strain > 0.0 && b.damping == 0.0)
             .when(|b| b.transfer() == TransferName::Apic || b.scheme == Scheme::flip(b.basis(), b.remedy()))
-            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
-            .unless(|b| (b.remedy() != RemedyName::None).then(|| "an average reaches from the sides to all particles".to_owned()))
+            .except(|b| b.affine_bound() > VAGUE, VAGUELY)
+            .except(|b| b.remedy() != RemedyName::None, "an average reaches from the sides to all particles")
             .each([DISPLACEMENT_ERROR, VELOCITY_ERROR, STRESS_ERROR].map(|of| Demand::at_most(of, |b: &Run<Moved>| b.affine_bound())))
             .because("APIC keeps an affine field wherever particles lie (Jiang et al. 2015); nodes amid a regular lattice have their mass' centre"),
         Check::truth("filter", "xpic2: of a constant ∇v it keeps what (1 − S S⁺)² leaves to lines of particles, within twenty times what functions change in motion")
             .when(|b| b.strain > 0.0 && b.fall == 0.0 && b.transfer() == TransferName::Xpic2)
-            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
+            .except(|b| b.affine_bound() > VAGUE, VAGUELY)
             .at_most(VELOCITY_ERROR, |b| b.affine_bound())
             .because("Hammerquist & Nairn 2017: (1 − S S⁺)^m is taken in every step; functions in closed form, docs/patch.md"),
         Check::truth("free-fall", "without a strain: displacement and velocity are those of a constant acceleration to rounding, implicit to what Newton's method leaves")

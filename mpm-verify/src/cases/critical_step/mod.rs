@@ -138,12 +138,12 @@ fn tables() -> Vec<ResultTable> {
         ("3D", "dimension=3"),
     ];
     let columns = SETTINGS.into_iter().flat_map(|(title, set)| {
-        let at = move |r: &Record| r.set.join(" ") == set;
+        let at = move |r: &Record| r.changes(set);
         [
             Column::metric(title, CRITICAL_CFL, fixed(3)).of(at),
             Column::metric("predicted", PREDICTED_CFL, fixed(3)).of(at),
         ]
     });
-    let shows = |r: &Record| SETTINGS.iter().any(|(_, set)| r.set.join(" ") == *set);
+    let shows = |r: &Record| SETTINGS.iter().any(|(_, set)| r.changes(set));
     vec![ResultTable::new("critical-step", shows, &[SCHEME], columns)]
 }

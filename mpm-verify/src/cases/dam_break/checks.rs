@@ -140,7 +140,7 @@ impl Water<'_> {
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<DamBreak>;
     type Demand = crate::demand::Demand<DamBreak>;
-    let at_rest = |check: Check| check.unless(|w| w.smooths().then(|| NOT_AT_REST.to_owned()));
+    let at_rest = |check: Check| check.except(|w| w.smooths(), NOT_AT_REST);
     vec![
         Check::bookkeeping("particle-count", "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five")
             .within(Quantity::new("particles", |w: &Water| w.record.work.particles as f64), |w| w.particles(), |_| 0.0)
@@ -172,7 +172,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("inviscid front; a grid resolves no tongue thinner than a cell"),
         Check::truth("arrival", "FLIP: arrival at x = 6 m − 2h exact within the time in which the inviscid front crosses a cell")
             .unless(|w| w.front_is_open())
-            .unless(|w| w.metric(ARRIVAL_ERROR).is_nan().then(|| "the front does not come so far by the end: see front".to_owned()))
+            .except(|w| w.metric(ARRIVAL_ERROR).is_nan(), "the front does not come so far by the end: see front")
             .at_most(ARRIVAL_ERROR, |w| {
                 let passes = passage(TANK - 2.0 * w.h);
                 w.front_bound() / passes.map_or(f64::NAN, |(_, speed)| speed)
@@ -203,7 +203,7 @@ pub(super) fn checks() -> Vec<Check> {
             })
             .because("water at rest in the tank has two thirds of its energy"),
         Check::truth("volume", "all: area covered at 0.4 s equal to L H within strips two particles wide")
-            .unless(|w| w.metric(COVERED_EARLY).is_nan().then(|| "the run ends before 0.4 s".to_owned()))
+            .except(|w| w.metric(COVERED_EARLY).is_nan(), "the run ends before 0.4 s")
             .within(COVERED_EARLY, |_| LENGTH * DEPTH, |w| {
                 // Strips are two particles wide and end at the highest particle of the water, whose surface drops by H
                 // in all and whose edge is known to half a particle.

@@ -223,7 +223,7 @@ fn checks() -> Vec<Check> {
             .because("internal forces sum to zero, as the functions sum to one"),
         Check::truth("no-energy-gain", "midpoint, β above 0, head on, contact of five steps, not fast or fine linear functions: energy exceeds its start by at most 10⁻⁴")
             .when(|d| d.is_of(Midpoint) && d.is_head_on() && d.lumped > 0.0 && !d.jumps())
-            .unless(|d| (!d.is_resolved()).then(|| "a step takes more than a fifth of the impulse".to_owned()))
+            .except(|d| !d.is_resolved(), "a step takes more than a fifth of the impulse")
             .at_most(ENERGY_GAIN, |_| NO_GAIN)
             .because("a lumped share takes energy, the rule gives none: docs/implicit.md"),
         Check::known_limit("linear-gains", "midpoint with linear functions at h = 0.025 m, 0.005 m/s and 100 times the explicit step, head on: energy exceeds its start by more than 10⁻⁴")
@@ -402,12 +402,8 @@ fn contact(gallery: &mut Gallery) -> Result<(), Error> {
             let plain = r.status == Status::Ok && r.changes_none_but(&["step_factor"]);
             plain && r.basis() == basis && r.scheme().solver() == "midpoint"
         };
-        let Some(record) = gallery.records.iter().find(own) else {
-            continue;
-        };
-        let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else {
-            continue;
-        };
+        let Some(record) = gallery.records.iter().find(own) else { continue };
+        let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else { continue };
         panels.push(field_panel(record, &table, basis.to_string(), "mean_stress"));
     }
     let [[lo, _], [hi, _]] = CENTRES;

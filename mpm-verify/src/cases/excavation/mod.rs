@@ -311,9 +311,8 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     const BEYOND: f64 = 3.5;
     let own = |r: &&Record| r.scheme().rule() == Some(Midpoint) && r.is_default() && r.status == Status::Ok;
     let runs = gallery.records.iter().filter(own);
-    let Some(record) = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h)) else {
-        return Ok(());
-    };
+    let finest = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h));
+    let Some(record) = finest else { return Ok(()) };
     let slope = Setup::<Excavation>::of_record(record)?;
     let (crest, cut, foot) = (slope.crest, slope.cut, slope.foot());
     let mut tables = Vec::new();

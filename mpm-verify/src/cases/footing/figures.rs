@@ -3,7 +3,6 @@
 use super::reference::{limit_curve, limit_uncertainty};
 use super::*;
 
-const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Finest first.
 const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
 /// Largest pressure over strength drawn; and the range about Prandtl's that is drawn larger.
@@ -28,7 +27,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         return Ok(());
     }
     curves(&mut runs)?;
-    for basis in BASES {
+    for basis in SMOOTH {
         mean_stress(&mut runs, basis)?;
         mechanism(&mut runs, basis)?;
     }
@@ -51,9 +50,9 @@ fn load(_: &Record, series: &Table) -> Vec<(f64, f64)> {
 fn curves(runs: &mut Exhibit) -> Result<(), Error> {
     let remedies = [(RemedyName::None, Dash::Dotted), (FbarConsistent, Dash::Solid)];
     // A curve that no basis has needs no entry in the legend.
-    let has = |remedy, level: &str| BASES.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
+    let has = |remedy, level: &str| SMOOTH.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
     let (mut whole, mut by_remedy) = (Vec::new(), Vec::new());
-    for basis in BASES {
+    for basis in SMOOTH {
         let title = basis_title(basis);
         let mut panel = panel_of_loads(title.to_owned());
         for (colour, level) in LEVELS.into_iter().enumerate() {

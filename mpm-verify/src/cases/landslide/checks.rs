@@ -174,7 +174,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("weight of the ground"),
         Check::truth("at-rest", "none and fbar-consistent with FLIP and APIC, except slow-motion: kinetic energy of the nodes after the gravity stage below 10⁻⁶ of the stored energy")
             .unless(|c| c.never_rests())
-            .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
+            .except(|c| c.h > FEW * c.height, "fewer than five cells over the height")
             .when(|c| c.remedy() != FbarRecursive && !is_slow(c))
             .at_most(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("velocities a thousandth of elastic ones"),
@@ -188,8 +188,8 @@ pub(super) fn checks() -> Vec<Check> {
             .because("seen where the toe has yielded"),
         Check::truth("overburden", "vertical stress far from the face the weight above, rms within 2 % of γ H, or a fifth of a cell's weight")
             .unless(|c| moves_too_fast(c, c.overburden()))
-            .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
-            .unless(|c| c.feels_the_face().then(|| "the face is felt at the back wall".to_owned()))
+            .except(|c| c.h > FEW * c.height, "fewer than five cells over the height")
+            .except(|c| c.feels_the_face(), "the face is felt at the back wall")
             .at_most(OVERBURDEN_ERROR, |c| c.overburden())
             .because("level ground"),
         Check::known_limit("locked-stress", "none with GIMP: vertical stress beyond overburden's bound, and mean stress alternates between particles by more than 5 % of γ H")
@@ -199,7 +199,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("standard MPM locks: Zhao et al. 2023, Figure 15"),
         // Energy.
         Check::truth("energy-not-gained", "all with FLIP: kinetic and potential energy and stress work never grow")
-            .unless(|c| (c.transfer() != TransferName::Flip).then(|| "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'".to_owned()))
+            .except(|c| c.transfer() != TransferName::Flip, "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'")
             .at_most(ENERGY_GAIN, |_| ROUNDING)
             .because("explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md"),
         Check::truth("energy-not-made", "fbar-consistent: final kinetic, potential and stored energy and dissipation at most those at the reduction")
@@ -207,9 +207,9 @@ pub(super) fn checks() -> Vec<Check> {
             .at_most(UNACCOUNTED_ENERGY, |_| ROUNDING)
             .because("what is stored and dissipated has fallen before"),
         Check::truth("energy-closure", "failing slopes, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation those at the reduction within h/H of the fallen energy")
-            .unless(|c| (c.duration > EARLY_SLIDE).then(|| "the ground flows: steps lose on the grid, and the share is reported".to_owned()))
-            .unless(|c| c.stands().then(|| "the slope stands: next to nothing falls".to_owned()))
-            .unless(|c| (c.metric(FALLEN_ENERGY) < c.lost_at_once()).then(|| "less has fallen than a strength that falls at once may lose".to_owned()))
+            .except(|c| c.duration > EARLY_SLIDE, "the ground flows: steps lose on the grid, and the share is reported")
+            .except(|c| c.stands(), "the slope stands: next to nothing falls")
+            .except(|c| c.metric(FALLEN_ENERGY) < c.lost_at_once(), "less has fallen than a strength that falls at once may lose")
             .within(
                 Quantity::new(UNACCOUNTED_ENERGY.name, |c: &Slope| c.metric(UNACCOUNTED_ENERGY) / c.metric(FALLEN_ENERGY)),
                 |_| 0.0,
@@ -219,7 +219,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("a band of cells smears what it shears over its width"),
         // The slide.
         Check::truth("stands", "all, reduction a tenth below the lower bound of limit analysis: less than a hundredth of the ground moves by H/20")
-            .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those of a face at 45° under a long crest".to_owned()))
+            .except(|c| c.bounds().is_none(), "the bounds of limit analysis are those of a face at 45° under a long crest")
             .when(|c| c.stands())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
@@ -243,7 +243,7 @@ pub(super) fn checks() -> Vec<Check> {
                     RemedyName::None => GROWN_ROUNDING,
                     _ => OTHER_SCALING,
                 })
-                .unless(|c| (c.remedy() == FbarRecursive).then(|| "it creeps, with either scaling at a pace of its own".to_owned())),
+                .except(|c| c.remedy() == FbarRecursive, "it creeps, with either scaling at a pace of its own"),
                 off(OFF_PLANE_STRAIN_0_5S, |_| GROWN_ROUNDING)
                     .when(|c| c.is_unbroken() && c.remedy() == RemedyName::None),
             ])

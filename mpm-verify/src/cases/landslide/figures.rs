@@ -4,7 +4,6 @@ use super::*;
 use crate::cases::pictures::frames;
 use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids};
 
-const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies without which there is nothing to compare.
 const COMPARED: [RemedyName; 2] = [RemedyName::None, FbarConsistent];
 /// Least number of frames of an animation: with fewer it is the snapshots alone.
@@ -116,7 +115,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         let by_size = a.discretisation.h.total_cmp(&b.discretisation.h);
         a.set.len().cmp(&b.set.len()).then(by_size)
     });
-    for basis in BASES {
+    for basis in SMOOTH {
         let compared = runs.levels(basis).first().copied();
         // The finest level of all, if other remedies have yet to run on it.
         let ours = |r: &&&Record| r.basis() == basis && r.remedy() == FbarConsistent;
@@ -175,7 +174,7 @@ fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
     let levels = crate::distinct(runs.records.iter().map(|r| &*r.level));
     let colour = |r: &Record| levels.iter().position(|level| *level == r.level);
     let mut panels = Vec::new();
-    for basis in BASES {
+    for basis in SMOOTH {
         let Some(level) = runs.levels(basis).first().copied() else { continue };
         let of = basis_title(basis);
         // Since the reduction of the strength.

@@ -29,8 +29,6 @@ use std::marker::PhantomData;
 /// Makes an exact solution.
 pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
 
-/// Bases whose functions are smooth enough for particles that cross cells.
-pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies that are compared: without, by rates, and ours.
 pub(super) const COMPARED: [RemedyName; 3] = [RemedyName::None, FbarRate, FbarConsistent];
 /// More particles than the cases' own two per direction.

@@ -1,6 +1,6 @@
 //! The picture of motions that lock.
 
-use super::{COMPARED, SMOOTH};
+use super::COMPARED;
 use crate::cases::prelude::*;
 
 /// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.

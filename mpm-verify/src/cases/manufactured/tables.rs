@@ -7,13 +7,8 @@ use crate::cases::prelude::*;
 /// Title of a column, level of its run, and changed parameters, apart by spaces.
 type At = (&'static str, &'static str, &'static str);
 
-/// Whether a run changes these parameters, as `name=value` apart by spaces.
-pub(in crate::cases) fn changes(r: &Record, set: &str) -> bool {
-    r.set.join(" ") == set
-}
-
 fn is_at(r: &Record, (_, level, set): At) -> bool {
-    r.level == level && changes(r, set)
+    r.level == level && r.changes(set)
 }
 
 /// Error of u over the motion.
@@ -118,7 +113,7 @@ pub(in crate::cases) fn price<const N: usize>(name: &str, levels: [&'static str;
     };
     let shows = move |r: &Record| {
         let compared = [RemedyName::None, FbarRate, FbarConsistent];
-        is_flip(r) && changes(r, set) && compared.contains(&r.remedy())
+        is_flip(r) && r.changes(set) && compared.contains(&r.remedy())
     };
     ResultTable::new(name, shows, &[SCHEME], levels.into_iter().flat_map(of_level))
 }

@@ -128,8 +128,7 @@ fn tables() -> Vec<ResultTable> {
     // Errors of u and p over the cells.
     let cells = |name: &str, set: &'static str, levels: usize| {
         let columns = [errors(DISPLACEMENT_L2, "u", levels), errors(PRESSURE_L2, "p", levels)];
-        let shows = move |r: &Record| r.set.iter().map(String::as_str).eq(set.split_whitespace());
-        ResultTable::new(name, shows, &[SCHEME], columns.into_iter().flatten())
+        ResultTable::new(name, move |r| r.changes(set), &[SCHEME], columns.into_iter().flatten())
     };
     let counts = [4.0, 8.0, 16.0].map(|count| (count, format!("{count} steps")));
     let steps = |r: &Record| Setup::<Motion>::number_of(r, |m| f64::from(m.steps));

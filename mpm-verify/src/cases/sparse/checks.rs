@@ -149,7 +149,7 @@ fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::noise::noise;
+    use crate::cases::build::noise;
 
     /// Twelve times the variance of the mean of `n` numbers of a cell, of many cells.
     fn tried(n: usize, place: impl Fn(usize, usize) -> Option<f64>) -> f64 {

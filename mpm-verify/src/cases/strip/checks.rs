@@ -29,7 +29,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::known_limit("equal-order-does-not-converge", "undrained, equal order, three levels: largest distance of p from the finite elements of order in h below 1 − 0.15")
             .study(|records| {
                 let why = "nothing holds pressures that no change of volume sees";
-                orders(records, |r| is_set(r, UNDRAINED) && is_of(r, Equal), PRESSURE_ERROR_LARGEST)
+                orders(records, |r| r.changes(UNDRAINED) && is_of(r, Equal), PRESSURE_ERROR_LARGEST)
                     .into_iter()
                     .map(|(name, order)| Finding::at_most(name, order, 1.0 - SLACK, why))
                     .collect()
@@ -40,7 +40,7 @@ pub(super) fn checks() -> Vec<Check> {
             .study(|records| {
                 let why = "neighbours of a pressure with a bounded gradient differ by no more than O(h)";
                 let elastic = orders(records, |r| r.is_default() && is_of(r, TwoGrid), ROUGHNESS);
-                let clay = orders(records, |r| is_set(r, CLAY_BELOW) && is_of(r, TwoGrid), ROUGHNESS);
+                let clay = orders(records, |r| r.changes(CLAY_BELOW) && is_of(r, TwoGrid), ROUGHNESS);
                 at_least([elastic, clay].concat(), 1.0, why)
             }),
         Check::truth("order-time", "elastic, whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
@@ -133,7 +133,7 @@ fn squares(records: &[Record]) -> Vec<Finding> {
         let why = "finite elements of Taylor and Hood, and Roache's index of two levels";
         Some(Finding::within(name, ratio(fine), 1.0, bound, why))
     };
-    ladders(records, |r| is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED), 2).into_iter().filter_map(of).collect()
+    ladders(records, |r| r.changes(SQUARE) || r.changes(SQUARE_UNDRAINED), 2).into_iter().filter_map(of).collect()
 }
 
 fn uniform(records: &[Record]) -> Vec<Finding> {
@@ -172,6 +172,6 @@ fn limits(records: &[Record]) -> Vec<Finding> {
         let bound = index(over, 1.0, true).bound + moved;
         Some(Finding::within(metric, over[2], 1.0, bound, why))
     };
-    let ladders = ladders(records, |r| is_set(r, LIMIT_LOAD) || is_set(r, LIMIT_SETTLEMENT), DECIDING);
+    let ladders = ladders(records, |r| r.changes(LIMIT_LOAD) || r.changes(LIMIT_SETTLEMENT), DECIDING);
     ladders.into_iter().filter_map(of).collect()
 }

@@ -45,7 +45,7 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
         }
         panels.push(of(record, &gallery.table(record, "particles.csv")?, title(load), load));
     }
-    if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
+    if let Some(record) = finest(gallery, |r| r.changes(CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
         let load = record.metric(LAST_LOAD);
         panels.push(of(record, &table, format!("Cam clay, q = {:.1} kPa", 1e-3 * load), load));
@@ -57,7 +57,7 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
 /// Where clay has yielded: Figure 11(a).
 fn plastic_strain(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
-    if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
+    if let Some(record) = finest(gallery, |r| r.changes(CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
         panels.push(panel(record, &table, "Cam clay at its limit".to_owned(), "plastic_strain", f64::log10));
     }

@@ -177,11 +177,6 @@ fn is_of(r: &Record, space: SpaceName) -> bool {
     matches!(r.scheme(), Scheme::Poro(parts) if parts.space == space)
 }
 
-/// Whether a run changes exactly the parameters of `set`.
-fn is_set(r: &Record, set: &str) -> bool {
-    r.set.iter().map(String::as_str).eq(set.split_whitespace())
-}
-
 /// Whether a run changes the parameters of `set`, and beside these at most the number of steps.
 fn is_set_but_steps(r: &Record, set: &str) -> bool {
     let is_other = |s: &&str| !s.starts_with("steps=");
@@ -189,7 +184,7 @@ fn is_set_but_steps(r: &Record, set: &str) -> bool {
 }
 
 fn is_small(r: &Record) -> bool {
-    is_set(r, SMALL) || is_set(r, UNDRAINED)
+    r.changes(SMALL) || r.changes(UNDRAINED)
 }
 
 fn is_elastic_but_steps(r: &Record) -> bool {
@@ -217,7 +212,7 @@ fn tables() -> Vec<ResultTable> {
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
     let uniform = ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]);
-    let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
+    let is_large = |r: &Record| r.is_default() || r.changes(CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
     let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
     let is_of_ghosts = move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
