@@ -66,6 +66,12 @@ pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&R
     ResultTable::new(name, shows, labels, own.into_iter().chain(more)).least(2)
 }
 
+/// Two metrics, the ends of a range, as a table shows it.
+pub(super) fn range(r: &Record, ends: [Metric; 2]) -> String {
+    let [least, most] = ends.map(|end| fixed(2).text(r.metric(end)));
+    format!("{least} … {most}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,8 +41,7 @@ pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
 
 /// A column under its load.
 pub(super) fn column_sketch(description: &'static str) -> Sketch {
-    Sketch::of(description)
-        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+    Sketch::block(description, [0.3, 1.0])
         .held([0.0, 0.0], [0.3, 0.0])
         .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
         .note([0.15, 1.2], "q, drained")

@@ -41,7 +41,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("order-time", "three refinements, each twice the one before: settlement at T = 2 of order in the number of steps at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| r.changes_none_but(&["refine"]));
-                let orders = orders_in_time("time", own, |r| number(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
+                let orders = orders_in_time("time", own, |r| Filled::number_of(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
                 at_least(orders, 1.0, "backward Euler's rule")
             }),
         // A domain of h/2 that sinks by s ≤ S has the share 2 s/h in the next cell, whose strain is another by h ε′: settlements S
@@ -79,7 +79,7 @@ fn balance_error(c: &Run<Consolidation>) -> f64 {
 
 /// Whether the cells of the pressure resolve the layer.
 fn resolves(r: &Record) -> bool {
-    Setup::<Consolidation>::holds(r, |c| {
+    Filled::holds(r, |c| {
         let cell = if c.space() == Some(TwoGrid) { 2.0 * c.h } else { c.h };
         layer(c.load).is_some_and(|layer| RESOLVING * cell <= layer)
     })
@@ -88,7 +88,8 @@ fn resolves(r: &Record) -> bool {
 /// GIMP's three finest runs that change the load alone, by load and scheme, coarsest first.
 fn ladders(records: &[Record]) -> BTreeMap<(String, Scheme), Vec<&Record>> {
     let own = |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
-    let ladders = ladders_by(records.iter().filter(own), |r| (number(r, |c| c.load).to_string(), r.scheme()));
+    let ladders =
+        ladders_by(records.iter().filter(own), |r| (Filled::number_of(r, |c| c.load).to_string(), r.scheme()));
     ladders.into_iter().filter_map(|(key, runs)| Some((key, finest(&runs)?.to_vec()))).collect()
 }
 
@@ -111,7 +112,7 @@ fn orders(records: &[Record]) -> Vec<Finding> {
 fn richardson(records: &[Record]) -> Vec<Finding> {
     let of = |((load, scheme), runs): ((String, Scheme), Vec<&Record>)| {
         let [coarse, middle, fine] = runs[..] else { return None };
-        let exact = Setup::<Consolidation>::of_record(fine).ok()?;
+        let exact = Filled::of_record(fine).ok()?;
         let exact = solution(exact.load, Some(f64::from(exact.refine)));
         let exact = exact.first()?.settlement;
         let settled = [coarse, middle, fine].map(|r| r.metric(SETTLEMENT_EARLY));

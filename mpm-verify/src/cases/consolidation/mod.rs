@@ -88,7 +88,7 @@ pub(super) fn case() -> Case {
         .pictures(pictures)
         .tables(tables())
         .breaks_down(|r| {
-            let large = Setup::<Consolidation>::holds(r, |c| c.load >= 0.3);
+            let large = Filled::holds(r, |c| c.load >= 0.3);
             (r.basis() == Linear && large)
                 .then_some("linear functions: particles that cross cells leave the one above empty, and the top stands on a node that bears nothing")
         })
@@ -114,23 +114,21 @@ fn plan() -> Plan {
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
 }
 
-fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {
-    Setup::number_of(r, of)
-}
+type Filled = Setup<Consolidation>;
 
 fn tables() -> Vec<ResultTable> {
-    const LOADED: Label = ("load", |r| format!("{} M₀", number(r, |c| c.load)));
-    const GHOST_U: Label = ("α_u", |r| number(r, |c| c.ghost_displacement).to_string());
-    const GHOST_P: Label = ("α_p", |r| number(r, |c| c.ghost_pressure).to_string());
+    const LOADED: Label = ("load", |r| format!("{} M₀", Filled::number_of(r, |c| c.load)));
+    const GHOST_U: Label = ("α_u", |r| Filled::number_of(r, |c| c.ghost_displacement).to_string());
+    const GHOST_P: Label = ("α_p", |r| Filled::number_of(r, |c| c.ghost_pressure).to_string());
     const RATE: Label = ("rate", |r| r.parameters.text(VOLUME_RATE));
-    const STEPS: Label = ("steps", |r| number(r, |c| c.count()).to_string());
+    const STEPS: Label = ("steps", |r| Filled::number_of(r, |c| c.count()).to_string());
     let errors = |levels: &[(&'static str, f64)], title: &str| {
         let levels = levels.iter().map(|(level, n)| (*level, format!("{title}n = {n}")));
         Column::levels(levels, SETTLEMENT_ERROR_STEPS, share(3))
     };
     let of_drains = [100.0, 1e3, 1e4].into_iter().flat_map(|drain| {
         LEVELS[..3].iter().map(move |(level, n)| {
-            let at = move |r: &Record| r.level == *level && number(r, |c| c.drain) == drain;
+            let at = move |r: &Record| r.level == *level && Filled::number_of(r, |c| c.drain) == drain;
             Column::metric(format!("β h/κ₀ = {drain}, n = {n}"), SETTLEMENT_ERROR_STEPS, share(3)).of(at)
         })
     });
@@ -175,7 +173,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     for load in [0.3, 1.0] {
         let own = |r: &&Record| {
             let own = r.basis() == Gimp && r.status == Status::Ok && r.level == "n8";
-            own && r.changes_none_but(&["load"]) && number(r, |c| c.load) == load
+            own && r.changes_none_but(&["load"]) && Filled::number_of(r, |c| c.load) == load
         };
         for (column, label, value) in quantities {
             let exact = solution(load, None).into_iter().map(|at| (at.t, 100.0 * value(&at)));

@@ -124,13 +124,9 @@ fn panel(
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let remedies = [RemedyName::None, FbarConsistent];
     let Some(level) = runs.level(basis, &remedies, &LEVELS) else { return Ok(()) };
-    let mut panels = Vec::new();
-    for remedy in remedies {
-        if let Some(record) = runs.find(basis, remedy, level) {
-            let kilopascals = |table: &Table, k: usize| 1e-3 * table.column("mean_stress")[k];
-            panels.push(panel(runs, record, remedy_title(remedy), kilopascals)?);
-        }
-    }
+    let kilopascals = |table: &Table, k: usize| 1e-3 * table.column("mean_stress")[k];
+    let found = remedies.into_iter().filter_map(|remedy| runs.find(basis, remedy, level));
+    let panels = found.map(|r| panel(runs, r, remedy_title(r.remedy()), kilopascals)).collect::<Result<_, Error>>()?;
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(level));
     Fields::new(panels, "mean normal stress (kPa)", signed(LEAST_STRESS)).titled(title).draw(

@@ -23,7 +23,6 @@ const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (15.0, 0.0), (10.0, 5.0), (0.0, 5.
 
 /// A field of the snapshots: its column, the factor to the unit shown, its range and its label.
 struct Field {
-    name: &'static str,
     column: &'static str,
     factor: f64,
     range: (f64, f64),
@@ -34,7 +33,6 @@ struct Field {
 
 const FIELDS: [Field; 2] = [
     Field {
-        name: "plastic-strain",
         column: "plastic_strain",
         factor: 1.0,
         range: (0.0, 2.0),
@@ -42,7 +40,6 @@ const FIELDS: [Field; 2] = [
         figure: "Figure 14",
     },
     Field {
-        name: "mean-stress",
         column: "mean_stress",
         factor: 1e-3,
         range: signed(-120.0),
@@ -121,7 +118,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         let ours = |r: &&&Record| r.basis() == basis && r.remedy() == FbarConsistent;
         let finest = runs.records.iter().find(ours).map(|r| &*r.level).filter(|level| Some(*level) != compared);
         for field in &FIELDS {
-            let name = format!("{}-{basis}", field.name);
+            let name = format!("{}-{basis}", field.column.replace('_', "-"));
             if let Some(level) = compared {
                 snapshots(&mut runs, (basis, level), field, &name)?;
             }

@@ -46,7 +46,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("order-time", "elastic, whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| is_set_but_steps(r, ""));
-                let orders = orders_in_time("Δt", own, |r| number(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
+                let orders = orders_in_time("Δt", own, |r| Loaded::number_of(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
                 at_least(orders, 1.0, "backward Euler's rule, and ghost penalties on increments")
             }),
         Check::truth("uniform-clay", "Cam clay, freely drained load on the whole surface, 10, 20, 40 steps: settlement error against integrated rates of order in Δt at least 0.85")
@@ -100,7 +100,7 @@ fn orders(records: &[Record], own: impl Fn(&Record) -> bool, metric: Metric) -> 
 
 /// Allowance for the settlement of a run beside the error of its cells: the reference's uncertainty and finite strain.
 fn beside(r: &Record) -> Option<f64> {
-    let s = Setup::<Strip>::of_record(r).ok()?;
+    let s = Loaded::of_record(r).ok()?;
     let known = s.reference()?;
     let uncertain = known.settlement_uncertainty / known.settlement;
     Some(uncertain + FINITE * s.load / s.shear_modulus())
@@ -153,7 +153,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
         let most = |of: &dyn Fn(&Record) -> f64| runs.iter().map(|r| of(r)).fold(0.0, f64::max);
         let least = |metric| runs.iter().map(|r| r.metric(metric)).fold(f64::INFINITY, f64::min);
         let largest = most(&|r| r.metric(LAST_LOAD));
-        let part = most(&|r| number(r, |s| s.load / f64::from(s.steps) / 256.0));
+        let part = most(&|r| Loaded::number_of(r, |s| s.load / f64::from(s.steps) / 256.0));
         let moved = most(&|r| r.metric(SETTLEMENT)) - least(SETTLEMENT);
         let metric = format!("range of {} of {scheme} {level}", LAST_LOAD.name);
         let why = "parts of a step of the load, and a width that settlement changes";
@@ -165,8 +165,8 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
 
 fn limits(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()))?;
-        let moved = number(runs.last()?, |s| s.penetration / s.half_width);
+        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()))?;
+        let moved = Loaded::number_of(runs.last()?, |s| s.penetration / s.half_width);
         let metric = format!("{} of {kind} over Prandtl's", LIMITING_LOAD.name);
         let why = "(2 + π) s_u, and Roache's index of three levels";
         let bound = index(over, 1.0, true).bound + moved;

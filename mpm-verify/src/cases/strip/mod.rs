@@ -115,8 +115,7 @@ pub(super) fn case() -> Case {
         .headline(ENTRIES, "entries of a matrix", 1.0, 0)
         .quantity(value(SETTLEMENT, "settlement"))
         .watched(&["load", "settlement"])
-        .sketch(Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
-            .body([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]])
+        .sketch(Sketch::block("Half of a flexible strip on a square of soil whose surface is drained.", [5.0, 5.0])
             .held([0.0, 0.0], [5.0, 0.0])
             .held([0.0, 0.0], [0.0, 5.0])
             .length([0.0, -0.5], [5.0, -0.5], "5 B")
@@ -134,7 +133,7 @@ pub(super) fn case() -> Case {
         .pictures(figures::draw)
         .tables(tables())
         .breaks_down(|r| {
-            let none = holds(r, |s| s.ghost_displacement == 0.0);
+            let none = Loaded::holds(r, |s| s.ghost_displacement == 0.0);
             none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
         })
 }
@@ -165,13 +164,7 @@ fn plan() -> Plan {
         .each(Nightly, "b4", two_grid, ["ghost_pressure=0", "ghost_displacement=0.01", "ghost_displacement=1"])
 }
 
-fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {
-    Setup::number_of(r, of)
-}
-
-fn holds(r: &Record, condition: fn(&Setup<Strip>) -> bool) -> bool {
-    Setup::holds(r, condition)
-}
+type Loaded = Setup<Strip>;
 
 fn is_of(r: &Record, space: SpaceName) -> bool {
     matches!(r.scheme(), Scheme::Poro(parts) if parts.space == space)
@@ -188,7 +181,7 @@ fn is_small(r: &Record) -> bool {
 }
 
 fn is_elastic_but_steps(r: &Record) -> bool {
-    is_set_but_steps(r, "") && holds(r, |s| !s.is_plastic())
+    is_set_but_steps(r, "") && Loaded::holds(r, |s| !s.is_plastic())
 }
 
 fn is_limit(r: &Record) -> bool {
@@ -196,19 +189,20 @@ fn is_limit(r: &Record) -> bool {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const STEPS: Label = ("steps", |r| number(r, |s| f64::from(s.steps)).to_string());
-    const WATER: Label = ("water", |r| if holds(r, |s| s.is_undrained()) { "none flows" } else { "flows" }.to_owned());
+    const STEPS: Label = ("steps", |r| Loaded::number_of(r, |s| f64::from(s.steps)).to_string());
+    const WATER: Label =
+        ("water", |r| if Loaded::holds(r, |s| s.is_undrained()) { "none flows" } else { "flows" }.to_owned());
     const SOIL: Label = ("soil", |r| r.parameters.text(LAW));
-    const GHOST_U: Label = ("α_u", |r| number(r, |s| s.ghost_displacement).to_string());
-    const GHOST_P: Label = ("α_p", |r| number(r, |s| s.ghost_pressure).to_string());
+    const GHOST_U: Label = ("α_u", |r| Loaded::number_of(r, |s| s.ghost_displacement).to_string());
+    const GHOST_P: Label = ("α_p", |r| Loaded::number_of(r, |s| s.ghost_pressure).to_string());
     const GIVEN: Label = ("given", |r| r.parameters.text(CONTROL));
-    const LOADED: Label = ("load (Pa)", |r| number(r, |s| s.load).to_string());
+    const LOADED: Label = ("load (Pa)", |r| Loaded::number_of(r, |s| s.load).to_string());
     const SIZE: Label = ("B/h", |r| (1.0 / r.discretisation.h).round().to_string());
     let by_level = |metric, title: &str, format: Format| {
         Column::levels(LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}"))), metric, format)
     };
     let of_limit = LEVELS.map(|(level, n)| {
-        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
+        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
     let uniform = ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]);
@@ -241,7 +235,7 @@ fn tables() -> Vec<ResultTable> {
             .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
         ResultTable::new("strip-limit", is_limit, &[GIVEN, STEPS, SCHEME], of_limit),
         uniform.metric("error of settlement", UNIFORM_ERROR, share(3)),
-        ResultTable::of("strip-square", |r| holds(r, |s| s.dimension == 3))
+        ResultTable::of("strip-square", |r| Loaded::holds(r, |s| s.dimension == 3))
             .by(&[LOADED, WATER, SCHEME, SIZE])
             .metric("settlement/B", SETTLEMENT, fixed(6))
             .metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4))
