@@ -2,13 +2,11 @@
 
 use crate::prelude::*;
 
-/// Every basis.
 pub(super) const BASES: [BasisName; 4] = [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
 
 /// Bases whose functions are smooth enough for particles that cross cells.
 pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
 
-/// Every remedy.
 pub(super) const REMEDIES: [RemedyName; 5] = [
     RemedyName::None,
     RemedyName::FbarRecursive,

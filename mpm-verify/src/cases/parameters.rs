@@ -4,9 +4,7 @@ use crate::prelude::*;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, UNSEEN, YOUNG_MODULUS};
 
-/// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
-/// Word of [`TIME_STEP`].
 pub(super) const AUTO: &str = "auto";
 
 choices! {

@@ -3,9 +3,7 @@
 use crate::cases::prelude::*;
 use mpm_core::poro::PressureSpace;
 
-/// Weight of water (N/m³).
 pub(super) const WATER_WEIGHT: f64 = 9810.0;
-/// Parameters of all.
 pub(super) const CONDUCTIVITY: Parameter =
     real("m/s", "1e-5", 1e-12, 1.0).named("conductivity").meaning("hydraulic conductivity k, of water of 9810 N/m³");
 pub(super) const PROJECTION: Parameter =

@@ -13,7 +13,6 @@ use crate::cases::prelude::*;
 use BasisName::Q8;
 use run::{DEPTH, LENGTH};
 
-/// Levels with their titles.
 const LEVELS: [(&str, &str); 4] =
     [("h0.1", "h = 0.1 m"), ("h0.05", "0.05"), ("h0.025", "0.025"), ("h0.0125", "0.0125")];
 /// The paper's choices.

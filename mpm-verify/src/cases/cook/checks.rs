@@ -222,7 +222,6 @@ impl Run<'_, Cook> {
     }
 }
 
-/// The relative error of the mid-edge deflection of a record, with the load at its place.
 pub(super) fn mid_edge_error(r: &Record) -> f64 {
     Run::<Cook>::of(r).map_or(f64::NAN, |run| run.mid_edge_error())
 }

@@ -196,7 +196,6 @@ impl Setup<Cook> {
     }
 }
 
-/// The references in words.
 pub(super) fn describe() -> Vec<String> {
     let Ok(document) = document() else { return Vec::new() };
     let mut lines = vec![document.method.clone()];

@@ -290,7 +290,6 @@ fn against_standard(runs: &[Water]) -> Vec<Finding> {
     found.flatten().collect()
 }
 
-/// Effect of the start on the front.
 fn starts(runs: &[Water]) -> Vec<Finding> {
     let staged = |(run, _): &(&Water, &Water)| run.start == Rest::GravityStage;
     let found = from_own(runs, "start").filter(staged).map(|(run, own)| {
@@ -301,7 +300,6 @@ fn starts(runs: &[Water]) -> Vec<Finding> {
     found.collect()
 }
 
-/// Effect of the time step on the front.
 fn time_steps(runs: &[Water]) -> Vec<Finding> {
     let ours = |(run, _): &(&Water, &Water)| run.remedy() == FbarConsistent && run.is_flip();
     let found = from_own(runs, "cfl").filter(ours).map(|(run, own)| {

@@ -9,7 +9,6 @@ const CLEAR: f64 = 0.02;
 /// Duration of the run, in times in which waves cross the block and come back, beside the time of its fall and as much to
 /// part.
 const CROSSINGS: f64 = 3.0;
-/// Rows of the series.
 const ROWS: u64 = 100;
 /// Cells beside the block's way and above it.
 const ROOM: f64 = 4.0;

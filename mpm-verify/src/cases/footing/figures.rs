@@ -14,10 +14,8 @@ const NEAR: (f64, f64) = (2.5, 2.0);
 const LEAST_STRESS: f64 = -0.6;
 /// Decimal logarithm of the plastic strains drawn.
 const STRAINS: (f64, f64) = (-5.0, -2.0);
-/// The footing (m).
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.08), (0.0, 0.08)];
 
-/// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let shorter = |r: &&Record| r.changes_only("penetration");
     let records = own_runs(gallery.records).into_iter();

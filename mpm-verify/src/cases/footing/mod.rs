@@ -26,7 +26,6 @@ const PENETRATION_RATE: Parameter =
     real("m/s", "2e-3", 1e-6, 1.0).named("penetration_rate").meaning("speed of the footing after its start");
 
 parameters! {
-    /// Parameters of the footing.
     struct Footing {
         young_modulus: f64 = common::YOUNG_MODULUS;
         poisson_ratio: f64 = common::POISSON_RATIO;

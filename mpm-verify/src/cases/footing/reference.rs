@@ -20,7 +20,6 @@ struct Document {
     extrapolated: Extrapolated,
 }
 
-/// A finite-element solution.
 #[derive(Debug, Deserialize)]
 struct Solution {
     cells: f64,
@@ -76,11 +75,9 @@ pub(super) struct MeanStress {
 /// Reference curve of a run: pressures over the strength for F/(B/2).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
-    /// Limit load.
     pub(super) limit: f64,
     /// (s/B, q/s_u).
     points: Vec<(f64, f64)>,
-    /// Name of the curve.
     pub(super) name: String,
 }
 
@@ -221,7 +218,6 @@ impl Setup<Footing> {
     }
 }
 
-/// The references in words.
 pub(super) fn describe() -> Vec<String> {
     let mut lines = vec![format!(
         "Prandtl (1920): limit load q = (2 + π) s_u = {EXACT:.4} s_u, exact for a rigid, perfectly plastic half-space"

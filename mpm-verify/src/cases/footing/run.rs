@@ -167,7 +167,6 @@ pub(in crate::cases) fn held_width(basis: BasisName, wall: common::Wall, h: f64)
     }
 }
 
-/// Observations of a footing.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     rows: Vec<Load>,
@@ -187,7 +186,6 @@ impl Seen {
     }
 }
 
-/// A footing that presses.
 pub(super) struct Pressing {
     setup: Setup<Footing>,
     pace: Pace,

@@ -151,7 +151,6 @@ fn moves_too_fast(c: &Slope, tolerance: f64) -> Option<String> {
     c.never_rests().filter(|_| c.metric(KINETIC_SHARE_AT_REST).sqrt() > 0.5 * tolerance)
 }
 
-/// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     type Demand = crate::demand::Demand<Landslide>;

@@ -27,7 +27,6 @@ struct Field {
     factor: f64,
     range: (f64, f64),
     label: &'static str,
-    /// The paper's figure of it.
     figure: &'static str,
 }
 
@@ -75,7 +74,6 @@ impl Shown {
 }
 
 impl<'g> Exhibit<'_, 'g> {
-    /// The runs of all remedies with a basis at a level.
     fn remedies(&self, basis: BasisName, level: &str) -> impl Iterator<Item = &'g Record> {
         REMEDIES.into_iter().filter_map(move |remedy| self.find(basis, remedy, level))
     }
@@ -102,7 +100,6 @@ impl<'g> Exhibit<'_, 'g> {
     }
 }
 
-/// Draws all figures of which there are runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let own = |r: &&Record| r.is_default() || r.changes_only("duration");
     let records = gallery.records.iter().filter(own);

@@ -35,7 +35,6 @@ struct Before {
     plastic_strain: Vec<f64>,
 }
 
-/// Observations of a slide.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// Factor by which the peak has been divided; none under rising gravity.
@@ -124,7 +123,6 @@ impl<const D: usize> Slide<D> {
         phase.enter(self.begin(seen)?, Some(&body))
     }
 
-    /// The strength that holds now.
     fn strength(&self, seen: &Seen) -> Result<Strength, Fault> {
         self.setup.strength(seen.reduction.unwrap_or(1.0))
     }

@@ -7,7 +7,6 @@ const LEVEL: Label = ("level", |r| {
     format!("{level} m")
 });
 
-/// The tables in plane strain.
 pub(super) fn in_plane() -> Vec<ResultTable> {
     let toe = |r: &Record| fixed(2).unit(" m").text(r.metric(RUNOUT_2_5S));
     let is_main = |r: &Record| is_flip(r) && r.is_default() && r.level == "h0.1";
@@ -84,7 +83,6 @@ fn studies() -> ResultTable {
         .columns(SETS.map(|(title, set)| Column::text(title, text).of(move |r| r.set == set)))
 }
 
-/// The table in three dimensions.
 pub(super) fn in_space() -> ResultTable {
     let spread = scientific(0);
     ResultTable::of("landslide-3d", |r| r.status == Status::Ok)

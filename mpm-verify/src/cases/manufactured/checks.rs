@@ -210,7 +210,6 @@ impl Ladder {
     }
 }
 
-/// Findings on every ladder of some metrics, each with its claims.
 fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> Option<Finding>) -> Check {
     let of = of.to_vec();
     let study = move |records: &[Record]| {

@@ -26,14 +26,12 @@ pub(super) use pictures::mean_stress;
 pub(super) use scenario::{Scenario, forcing, vector};
 use std::marker::PhantomData;
 
-/// Makes an exact solution.
 pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
 
 /// Remedies that are compared: without, by rates, and ours.
 pub(super) const COMPARED: [RemedyName; 3] = [RemedyName::None, FbarRate, FbarConsistent];
 /// More particles than the cases' own two per direction.
 pub(super) const MORE: [&str; 2] = ["ppc_per_direction=3", "ppc_per_direction=4"];
-/// Levels of plans.
 pub(super) const THREE: &str = "n8 n16 n32";
 pub(super) const FOUR: &str = "n8 n16 n32 n64";
 pub(super) const FIVE: &str = "n8 n16 n32 n64 n128";
@@ -64,7 +62,6 @@ pub(super) trait Known: Send + Sync + 'static {
     /// Parts of its parameters; nothing if it makes the list by itself.
     const PARAMETERS: Composed = (&[], &[], "", &[]);
 
-    /// All parameters.
     fn parameters() -> Vec<Parameter> {
         all_parameters(Self::PARAMETERS)
     }
@@ -154,7 +151,6 @@ fn all_parameters((of_solution, defaults, duration, own): Composed) -> Vec<Param
     all
 }
 
-/// Sets the defaults of some of the parameters.
 pub(super) fn set_defaults(all: &mut [Parameter], defaults: &[(Parameter, &'static str)]) {
     for p in all {
         if let Some((_, default)) = defaults.iter().find(|(known, _)| known.name == p.name) {

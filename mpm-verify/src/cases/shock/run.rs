@@ -11,7 +11,6 @@ pub(super) const WAY: f64 = 0.7;
 pub(super) const BEHIND: [f64; 2] = [0.1, 0.8];
 /// Shares of the jump that bound the width of a front.
 const FRONT: [f64; 2] = [0.05, 0.95];
-/// Rows of the series.
 const ROWS: u64 = 100;
 /// Cells beyond the bar.
 const ROOM: usize = 2;
