@@ -1,6 +1,4 @@
 //! A column of water at rest: what creeps, creeps here; what grows by itself, grows here.
-//!
-//! Set-up, choices and tolerances: `docs/column.md`.
 
 use super::manufactured::foreign::{TIME, gaps_of_rest, of_rest};
 use super::manufactured::*;

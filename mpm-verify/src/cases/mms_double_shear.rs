@@ -1,6 +1,4 @@
 //! Double shear of a periodic body: no boundary at all.
-//!
-//! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

@@ -1,6 +1,4 @@
 //! Isochoric vortex in a box: what locks, shows it here.
-//!
-//! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

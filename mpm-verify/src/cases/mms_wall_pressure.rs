@@ -1,7 +1,5 @@
 //! Axis-aligned displacement with a pressure gradient normal to the walls: what a basis or an average does
 //! at a wall.
-//!
-//! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

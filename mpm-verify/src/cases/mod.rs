@@ -1,4 +1,4 @@
-//! The problems, a folder or a file each.
+//! The problems, a folder or a file each. The page `docs/NAME.md` of a problem has its set-up and choices, and derives its bounds.
 
 use crate::case::Case;
 use crate::error::Error;

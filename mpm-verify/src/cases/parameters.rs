@@ -8,9 +8,7 @@ pub(super) const WALL_LINE: &str = "wall-line";
 pub(super) const AUTO: &str = "auto";
 
 choices! {
-    /// How B-splines meet walls.
     pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
-    /// How the time step is found.
     pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
 }
 

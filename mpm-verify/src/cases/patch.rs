@@ -1,6 +1,4 @@
 //! A body that stretches, shears and falls: what a scheme must reproduce exactly, next to walls too.
-//!
-//! Set-up, choices and tolerances: `docs/patch.md`.
 
 use crate::cases::build::DENSITY;
 use crate::cases::prelude::*;

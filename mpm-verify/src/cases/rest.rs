@@ -1,6 +1,4 @@
 //! A slope at rest: what creeps or grows in a long time of nothing.
-//!
-//! Set-up, choices and tolerances: `docs/rest.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

@@ -1,6 +1,4 @@
 //! Standing gravity wave in a box of slightly compressible water, over many periods.
-//!
-//! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
 use super::manufactured::*;
 use super::parameters::FLIP;

@@ -1,6 +1,6 @@
 //! A cantilever under its weight: the quasi-static case of the implicit paper.
 //!
-//! Section 3.1 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/cantilever.md`.
+//! Section 3.1 of Wang, Vardon, Hicks & Chen (2016).
 
 mod checks;
 mod edge;

@@ -1,6 +1,6 @@
 //! Matrices of solid and water on a grid that cuts a body, and the effect of ghost penalties on them.
 //!
-//! Section 5.2 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/conditioning.md`.
+//! Section 5.2 of Pretti et al., doi:10.1002/nme.7630.
 
 mod run;
 
@@ -87,7 +87,6 @@ fn sketch() -> Sketch {
     .note([0.0, 0.25], "moved through 2 h")
 }
 
-/// The bounds are derived in `docs/conditioning.md`.
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Ellipse>;
     const WORK: &str = "the work of a load falls as stiffness grows";

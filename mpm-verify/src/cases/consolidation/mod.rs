@@ -1,6 +1,4 @@
 //! Consolidation of a column at finite strain: the solver of solid and water against an independent solution.
-//!
-//! Set-up, reference and tolerances: `docs/consolidation.md`.
 
 mod checks;
 pub(super) mod foreign;

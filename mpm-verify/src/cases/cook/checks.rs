@@ -206,7 +206,6 @@ impl Run<'_, Cook> {
         self.swings().or_else(|| moves.then(|| "the body still moves at the end: see at-rest".to_owned()))
     }
 
-    /// The number of particles that is known.
     fn count(&self) -> Option<f64> {
         let counted = COUNTS.iter().find(|(size, _)| *size == self.h && self.record.discretisation.ppc == 4);
         counted.map(|(_, count)| *count)

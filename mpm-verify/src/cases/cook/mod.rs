@@ -1,6 +1,6 @@
 //! Cook's membrane: nearly incompressible elasticity in bending and shear.
 //!
-//! Section 4.1 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/cook.md`.
+//! Section 4.1 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod figures;

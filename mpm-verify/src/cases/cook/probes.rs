@@ -18,7 +18,6 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// In particles at `references` (m) on cells of size `h` (m).
     pub(super) fn new(references: Vec<[f64; 2]>, h: f64) -> Result<Self, Error> {
         let at = |[x, y]: [f64; 2]| {
             PointProbe::new(&references, [x, y], 2.0 * h)

@@ -149,7 +149,6 @@ pub(super) fn energy_defect(kinetic: f64, stress_work: f64, losses: f64, load_wo
 }
 
 impl Membrane {
-    /// The criterion of rest, with its observations so far.
     fn rest(&self, seen: &Seen) -> Result<RestCriterion, Fault> {
         let (force_ratio, energy_ratio, drift) = REST;
         let mut rest = RestCriterion::new(force_ratio, energy_ratio, drift, self.window());

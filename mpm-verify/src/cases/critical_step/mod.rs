@@ -1,6 +1,4 @@
 //! The largest stable step of every explicit scheme, by bisection, against linear analysis.
-//!
-//! Set-up, theory and tolerances: `docs/critical-step.md`.
 
 mod run;
 

@@ -110,7 +110,6 @@ impl Water<'_> {
         self.h + uncertainty()
     }
 
-    /// The reason why the front is not judged.
     fn front_is_open(&self) -> Option<String> {
         if self.metric(FRONT_RMS_ERROR).is_nan() {
             Some("the run ends before the front is near the wall".to_owned())
@@ -235,7 +234,6 @@ fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
     kinds.into_iter().map(|kind| own.iter().filter(|w| (w.scheme, &w.set) == kind).copied().collect()).collect()
 }
 
-/// Whether an error falls from level to level.
 fn falls(runs: &[Water], metric: Metric) -> Vec<Finding> {
     let ladders = ladders(runs);
     let fall = |pair: &[&Water]| {

@@ -1,6 +1,6 @@
 //! The dam break: water behind a gate that is removed at once, and the wall that it meets.
 //!
-//! Section 4.3 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/dam-break.md`.
+//! Section 4.3 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod figures;

@@ -1,6 +1,6 @@
 //! Two elastic discs that collide: the dynamic case of the implicit paper.
 //!
-//! Section 3.2 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/discs.md`.
+//! Section 3.2 of Wang, Vardon, Hicks & Chen (2016).
 
 mod flight;
 mod run;

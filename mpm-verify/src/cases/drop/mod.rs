@@ -1,6 +1,4 @@
 //! An elastic block that falls on a floor with friction, at an angle, and bounces.
-//!
-//! Set-up, choices and tolerances: `docs/drop.md`.
 
 mod run;
 

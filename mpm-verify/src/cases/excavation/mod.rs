@@ -1,6 +1,6 @@
 //! A slope whose toe is cut away: the geotechnical case of the implicit paper.
 //!
-//! Section 3.3 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/excavation.md`.
+//! Section 3.3 of Wang, Vardon, Hicks & Chen (2016).
 
 mod run;
 mod scene;

@@ -72,7 +72,6 @@ impl Setup<Footing> {
         rings.then(|| format!("waves are {slowness:.1} times slower than where {SLOW} m/s is known to be slow"))
     }
 
-    /// Why a run is shown, and not judged.
     fn shown_only(&self) -> Option<String> {
         let starts = !self.is_implicit() && self.penetration * WIDTH <= 0.5 * self.penetration_rate * self.ramp;
         let dissipates = ![TransferName::Flip, TransferName::None].contains(&self.transfer()) || self.flip < 1.0;
@@ -125,7 +124,6 @@ impl Setup<Footing> {
         self.is_free_of_locking() && self.yields()
     }
 
-    /// Whether standard MPM locks.
     fn locks(&self) -> bool {
         self.remedy() == RemedyName::None && self.yields()
     }

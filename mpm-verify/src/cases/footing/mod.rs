@@ -1,6 +1,6 @@
 //! A rigid strip footing on a cohesive, nearly incompressible ground.
 //!
-//! Section 4.2 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/footing.md`.
+//! Section 4.2 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod curve;
@@ -18,7 +18,6 @@ use run::{Pressing, WIDTH};
 const COMPARED: [RemedyName; 4] = [RemedyName::None, FbarRecursive, FbarRate, FbarConsistent];
 
 choices! {
-    /// How the footing presses.
     enum Contact { RigidNodes = "rigid-nodes", Barrier = "barrier" }
 }
 

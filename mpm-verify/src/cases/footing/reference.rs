@@ -46,7 +46,6 @@ struct Slope {
     slope: f64,
 }
 
-/// The limit of vanishing elements.
 #[derive(Debug, Deserialize)]
 struct Extrapolated {
     slope: f64,

@@ -1,6 +1,6 @@
 //! Landslides of a slope of soft clay that loses its strength as it flows, in plane strain and in three dimensions.
 //!
-//! Section 4.4 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/landslide.md`.
+//! Section 4.4 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod figures;

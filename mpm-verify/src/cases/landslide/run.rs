@@ -249,7 +249,6 @@ fn since_release(before: &Before, error: Fault) -> Fault {
     }
 }
 
-/// Plastic strain and mean stress.
 fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
     columns.field("plastic_strain", "-", Field::PlasticStrain).field("mean_stress", "Pa", Field::MeanStress)
 }

@@ -51,7 +51,6 @@ fn lost(r: &Record) -> f64 {
     }
 }
 
-/// Shear bands, and where the rearmost is.
 fn bands(r: &Record) -> String {
     let count = fixed(0).text(r.metric(SHEAR_BANDS_END));
     match r.metric(REARMOST_BAND_END) {

@@ -1,7 +1,7 @@
 //! Consolidation of a slab between rigid plates at small strain: nodes that move as one, water and solid in two dimensions,
 //! and the pressure that rises before it falls.
 //!
-//! Mandel 1953, doi:10.1680/geot.1953.3.7.287. Set-up, choices and tolerances: `docs/mandel.md`.
+//! Mandel 1953, doi:10.1680/geot.1953.3.7.287.
 
 mod run;
 
@@ -94,7 +94,6 @@ fn plan() -> Plan {
         .each(Nightly, "n16", &both, RATIOS)
 }
 
-/// The bounds are derived in `docs/mandel.md`.
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Mandel>;
     const SERIES_AND_EQUATIONS: &str = "Mandel's series, and what cells and steps make of it";

@@ -116,7 +116,6 @@ pub(super) struct Seen {
     peak: (f64, f64),
 }
 
-/// A slab that consolidates, and its exact solutions.
 pub(super) struct Consolidation {
     setup: Setup<Mandel>,
     exact: exact::Mandel,

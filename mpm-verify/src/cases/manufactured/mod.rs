@@ -1,6 +1,4 @@
 //! Problems whose exact solution is known: what each of them says of its motion, and one simulation for all.
-//!
-//! Choices, gates and tolerances: `docs/manufactured.md`.
 
 pub(super) mod checks;
 pub(super) mod errors;

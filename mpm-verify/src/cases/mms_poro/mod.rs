@@ -1,6 +1,4 @@
 //! Solid and water at finite strain whose motion and pressure are known: the solver of both against an exact solution.
-//!
-//! Set-up, choices and tolerances: `docs/mms-poro.md`.
 
 mod checks;
 mod run;

@@ -1,6 +1,4 @@
 //! A vortex in a box so slow that it is always in equilibrium: the quasi-static solver against an exact solution.
-//!
-//! Set-up, choices and tolerances: `docs/mms-static.md`.
 
 mod run;
 

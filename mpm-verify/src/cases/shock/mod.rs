@@ -1,6 +1,4 @@
 //! A bar that runs into a wall: the front behind which it rests, against Rankine and Hugoniot's conditions.
-//!
-//! Set-up, choices and tolerances: `docs/shock.md`.
 
 mod jump;
 mod run;

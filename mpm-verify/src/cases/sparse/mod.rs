@@ -1,6 +1,4 @@
 //! A vortex in a box on few particles without order: the error of a cloud that is a matter of chance.
-//!
-//! Set-up, choices and tolerances: `docs/sparse.md`.
 
 mod checks;
 mod run;

@@ -1,6 +1,4 @@
 //! A free disc that turns, against the exact one: losses of angular momentum and energy by each transfer.
-//!
-//! Set-up, choices and tolerances: `docs/spin.md`.
 
 mod run;
 

@@ -1,6 +1,4 @@
 //! A homogeneously stretched and crushed body: where it tears, where its step becomes too long, and what reports it.
-//!
-//! Set-up, choices and tolerances: `docs/stretch.md`.
 
 mod run;
 

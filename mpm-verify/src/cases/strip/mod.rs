@@ -1,7 +1,7 @@
 //! A flexible strip on soil full of water: the solver of solid and water where the ground sinks out of its cells, and
 //! where clay yields.
 //!
-//! G. Pretti et al., section 5.3. Set-up, reference and tolerances: `docs/strip.md`.
+//! G. Pretti et al., section 5.3.
 
 mod checks;
 mod clay;

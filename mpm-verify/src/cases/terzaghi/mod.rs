@@ -1,6 +1,6 @@
 //! Consolidation of a column of soil at small strain, against Terzaghi's series and the closed form of the first step.
 //!
-//! Section 5.1 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/terzaghi.md`.
+//! Section 5.1 of Pretti et al., doi:10.1002/nme.7630.
 
 pub(super) mod foreign;
 mod run;

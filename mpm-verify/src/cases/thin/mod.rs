@@ -1,6 +1,4 @@
 //! A beam one, two, four cells thick: the effect of cells and particles on its bending.
-//!
-//! Set-up, choices and tolerances: `docs/thin.md`.
 
 mod run;
 

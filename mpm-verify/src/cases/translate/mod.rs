@@ -1,6 +1,4 @@
 //! A prestressed body that crosses a hundred cells: its exact stress is constant, and every deviation is noise of crossing.
-//!
-//! Set-up, choices and tolerances: `docs/translate.md`.
 
 mod run;
 

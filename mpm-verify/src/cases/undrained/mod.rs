@@ -1,6 +1,6 @@
 //! A body that no water leaves: whether pressures and motions of the two grids fit together.
 //!
-//! Sections 3 and 4.4 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/undrained.md`.
+//! Sections 3 and 4.4 of Pretti et al., doi:10.1002/nme.7630.
 
 mod run;
 
@@ -89,7 +89,6 @@ fn plan() -> Plan {
         .runs(Nightly, EVERY, equal_gimp, "layout=across")
 }
 
-/// The bounds are derived in `docs/undrained.md`.
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Undrained>;
     type Of = Setup<Undrained>;
