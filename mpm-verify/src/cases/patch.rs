@@ -74,10 +74,7 @@ pub(super) fn case() -> Case {
             .note([0.5, -0.1], "wall that doesn't hold")
             .length([0.0, 1.1], [1.0, 1.1], "1 m"))
         .cost(|_| 0.01)
-        .begun(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
-            2 => crate::problem::begin::<2, Moving>(spec, values),
-            _ => crate::problem::begin::<3, Moving>(spec, values),
-        })
+        .begun(problem::begin_in::<2, 3, Moving>)
 }
 
 fn plan() -> Plan {

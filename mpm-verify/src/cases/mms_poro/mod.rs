@@ -89,10 +89,7 @@ pub(super) fn case() -> Case {
             .length([0.0, -0.15], [1.0, -0.15], "1 m")
             .note([0.5, 1.12], "p = 0"))
         .cost(|spec| 1e-4 * spec.level.h.powi(-3))
-        .begun(|spec, parameters| match Motion::read(parameters)?.dimension {
-            1 => crate::problem::begin::<1, Moving>(spec, parameters),
-            _ => crate::problem::begin::<2, Moving>(spec, parameters),
-        })
+        .begun(problem::begin_in::<1, 2, Moving>)
         .tables(tables())
 }
 

@@ -192,9 +192,8 @@ impl Problem<2> for Loaded {
         if seen.stopped { 1.0 } else { share }
     }
 
-    fn particles<'a>(&self, _: &Found, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        let stress = columns.run().force_stress();
-        columns.each("stress_yy", "Pa", |_, k| stress[k].get(1, 1))
+    fn particles<'a>(&self, _: &Found, columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        columns.stress("stress_yy", [1, 1])
     }
 
     fn metrics(&self, seen: &Found, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {

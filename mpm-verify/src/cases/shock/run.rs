@@ -135,9 +135,8 @@ impl Problem<1> for Bar {
         phase.share_of(self.steps)
     }
 
-    fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        let stress = columns.run().force_stress();
-        columns.velocities().each("stress_xx", "Pa", |_, k| stress[k].get(0, 0)).jacobian()
+    fn particles<'a>(&self, _: &Rows, columns: Columns<'a, 1>) -> Columns<'a, 1> {
+        columns.velocities().stress("stress_xx", [0, 0]).jacobian()
     }
 
     fn metrics(&self, seen: &Rows, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

@@ -65,10 +65,7 @@ pub(super) fn case() -> Case {
         .watched(&["stress_kept", "stress_error"])
         .sketch(sketch())
         .cost(|spec| if spec.set.join(" ") == PLANE { 1.0 } else { 0.1 })
-        .begun(|spec, values| match Setup::<Stretch>::of_spec(spec, values)?.dimension {
-            1 => crate::problem::begin::<1, Stretching>(spec, values),
-            _ => crate::problem::begin::<2, Stretching>(spec, values),
-        })
+        .begun(problem::begin_in::<1, 2, Stretching>)
         .tables(tables())
 }
 

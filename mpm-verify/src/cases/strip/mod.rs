@@ -126,10 +126,7 @@ pub(super) fn case() -> Case {
             true => 0.1 * spec.level.h.powi(-6),
             false => 1e-3 * spec.level.h.powi(-3),
         })
-        .begun(|spec, parameters| match Strip::read(parameters)?.dimension {
-            2 => crate::problem::begin::<2, Setup<Strip>>(spec, parameters),
-            _ => crate::problem::begin::<3, Setup<Strip>>(spec, parameters),
-        })
+        .begun(problem::begin_in::<2, 3, Loaded>)
         .pictures(figures::draw)
         .tables(tables())
         .breaks_down(|r| {
