@@ -78,7 +78,7 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(names(STRESSES)).collect();
     Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
         .planned(plan())
         .described("An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \

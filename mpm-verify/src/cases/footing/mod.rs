@@ -94,9 +94,7 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let curve = CURVE.iter().map(|(metric, _)| *metric);
-    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
-    let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(names(CURVE)).chain(names(MEAN_STRESSES)).collect();
     Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
         .planned(plan())
         .described("A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \
