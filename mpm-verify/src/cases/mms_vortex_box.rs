@@ -31,13 +31,9 @@ pub(super) fn case() -> Case {
     .checks(locking())
     .sweep(LOCKING_CURVE)
     .breaks_down(|r| {
-        let known = [
-            (Bspline2, FbarRate, "n128"),
-            (Linear, FbarTotal, "n64"),
-            (Gimp, FbarTotal, "n64"),
-        ];
-        let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
-        (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
+        let scheme = (r.basis(), r.remedy(), &*r.level);
+        let known = matches!(scheme, (Bspline2, FbarRate, "n128") | (Linear | Gimp, FbarTotal, "n64"));
+        (r.is_default() && known).then_some(NULL_SPACE)
     })
     .pictures(|gallery| mean_stress(gallery, "n32", 600.0))
     .tables(tables())

@@ -218,10 +218,7 @@ fn checks() -> Vec<Check> {
 fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
     for (basis, level) in SMOOTH.into_iter().flat_map(|b| [(b, "n8"), (b, "n16")]) {
-        let own = |r: &&Record| {
-            let here = r.level == level && r.basis() == basis && is_flip(r);
-            here && r.changes(TWENTY_PERIODS)
-        };
+        let own = |r: &&Record| r.level == level && r.basis() == basis && is_flip(r) && r.changes(TWENTY_PERIODS);
         let runs = || gallery.records.iter().filter(own);
         let broken = runs().filter(|r| r.status == Status::Failed);
         let energy = |t: &Table| t.points("time", "kinetic_energy");

@@ -6,7 +6,6 @@ mod checks;
 mod edge;
 mod figures;
 pub(super) mod foreign;
-mod reference;
 mod run;
 
 use crate::cases::prelude::*;

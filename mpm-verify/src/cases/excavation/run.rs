@@ -3,7 +3,6 @@
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
 use mpm_core::Reaction;
-use mpm_core::monitor::Convergence;
 
 /// A particle that moves by this share of the height has left with what collapses.
 const COLLAPSES: f64 = 0.1;
@@ -250,7 +249,7 @@ impl Problem<2> for Ground {
         if self.setup.slides() && base[1] < 0.0 {
             seen.friction_ratio = seen.friction_ratio.max(base[0].abs() / -base[1]);
         }
-        let convergence: Convergence = run.convergence().cloned().unwrap_or_default();
+        let convergence = run.convergence().cloned().unwrap_or_default();
         let totals = run.totals();
         let clock = if stage.moves() { run.time() } else { 0.0 };
         let gravity = if stage == Stage::Gravity { run.time() } else { 1.0 };

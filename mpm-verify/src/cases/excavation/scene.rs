@@ -44,7 +44,6 @@ impl Stage {
         matches!(self, Self::Gravity | Self::Settling)
     }
 
-    /// Whether velocities exist.
     pub(super) fn moves(self) -> bool {
         matches!(self, Self::Settling | Self::Collapse)
     }

@@ -151,13 +151,9 @@ fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         &format!("velocity-{basis}"),
         format!("Displacement over the last quarter of the penetration over that of the footing, {remedy}, {of}: a wedge that sinks with the footing, a fan, a wedge that is pushed up, and ground at rest."),
     )?;
-    Fields::new(vec![plastic], "log₁₀ of the equivalent plastic strain", STRAINS)
-        .titled("Where the ground has yielded".to_owned())
-        .draw(
-            runs.gallery,
-            &format!("plastic-strain-{basis}"),
-            format!(
-                "Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."
-            ),
-        )
+    let caption =
+        format!("Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide.");
+    let yielded = Fields::new(vec![plastic], "log₁₀ of the equivalent plastic strain", STRAINS);
+    let yielded = yielded.titled("Where the ground has yielded".to_owned());
+    yielded.draw(runs.gallery, &format!("plastic-strain-{basis}"), caption)
 }

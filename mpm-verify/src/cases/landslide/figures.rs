@@ -146,16 +146,14 @@ fn snapshots(runs: &mut Exhibit, (basis, level): (BasisName, &str), field: &Fiel
             field.label, field.figure
         )
     };
-    let mut file = format!("{name}.png");
-    let mut place = "";
-    if panels.iter().all(|shown| shown.is_solid()) {
-        draw_solids(&runs.gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
-        runs.gallery.hang(&file, caption(""));
-        (file, place) = (format!("section-{file}"), ", in the middle of the width");
+    let flat = fields(title.clone(), &panels, columns, field);
+    if !panels.iter().all(|shown| shown.is_solid()) {
+        return flat.draw(runs.gallery, name, caption(""));
     }
-    draw_fields(&runs.gallery.place(&file), &fields(title.clone(), &panels, columns, field))?;
-    runs.gallery.hang(&file, caption(place));
-    Ok(())
+    let file = format!("{name}.png");
+    draw_solids(&runs.gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
+    runs.gallery.hang(&file, caption(""));
+    flat.draw(runs.gallery, &format!("section-{name}"), caption(", in the middle of the width"))
 }
 
 /// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
@@ -218,7 +216,7 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
             let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
             animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
         } else {
-            let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field);
+            let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field).0;
             animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
         }
         let (level, label) = (level_title(level), field.label);
@@ -236,7 +234,7 @@ fn level_title(level: &str) -> String {
     }
 }
 
-fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> FieldFigure {
+fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fields {
     let panel = |shown: &&Shown| FieldPanel {
         title: shown.title.clone(),
         points: shown.in_the_middle(&shown.particles.points("x", "y")),
@@ -245,7 +243,7 @@ fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fi
         outline: OUTLINE.to_vec(),
     };
     let panels = panels.iter().map(panel).collect();
-    Fields::new(panels, field.label, field.range).titled(title).columns(columns).within(WINDOW).0
+    Fields::new(panels, field.label, field.range).titled(title).columns(columns).within(WINDOW)
 }
 
 fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> SolidFigure {

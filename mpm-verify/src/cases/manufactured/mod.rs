@@ -5,7 +5,6 @@ pub(super) mod errors;
 pub(super) mod foreign;
 mod metrics;
 mod motion;
-mod pictures;
 mod scenario;
 mod sketch;
 pub(super) mod tables;
@@ -20,9 +19,9 @@ pub(super) use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
 pub(super) use checks::*;
 pub(super) use metrics::*;
 pub(super) use motion::Motion;
-pub(super) use pictures::mean_stress;
 pub(super) use scenario::{Scenario, forcing, vector};
 use std::marker::PhantomData;
+pub(super) use tables::mean_stress;
 
 pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
 

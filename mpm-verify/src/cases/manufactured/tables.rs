@@ -1,7 +1,7 @@
-//! Tables of errors and orders that several motions show.
+//! Tables of errors and orders, and a picture, that several motions show.
 
-use super::CFL;
 use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
+use super::{CFL, COMPARED};
 use crate::cases::prelude::*;
 
 /// Title of a column, level of its run, and changed parameters, apart by spaces.
@@ -130,4 +130,19 @@ pub(in crate::cases) fn cost(name: &str, levels: [&'static str; 3], shows: fn(&R
     };
     let cfl: Label = ("CFL", |r| r.parameters.text(CFL));
     ResultTable::new(name, shows, &[SCHEME, cfl], levels.into_iter().flat_map(of_level))
+}
+
+/// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.
+pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f64) -> Result<(), Error> {
+    let mut panels = Vec::new();
+    for scheme in pairs(&SMOOTH, &COMPARED) {
+        let run = gallery
+            .records
+            .iter()
+            .find(|r| r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok);
+        let Some(run) = run else { continue };
+        panels.push(field_panel(run, &gallery.table(run, "particles.csv")?, scheme.title(), "mean_stress"));
+    }
+    let caption = format!("Mean stress of the particles at the end, at level {level}.");
+    Fields::new(panels, "mean stress (Pa)", (-most, most)).columns(3).draw(gallery, "mean-stress", caption)
 }
