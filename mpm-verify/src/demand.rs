@@ -101,6 +101,11 @@ macro_rules! terms {
             self
         }
 
+        /// Does not judge a run where `holds`, for this reason.
+        pub(crate) fn except(self, holds: impl Fn(&Run<P>) -> bool + Held, why: &'static str) -> Self {
+            self.unless(move |r| holds(r).then(|| why.to_owned()))
+        }
+
         /// The magnitude of a wrong value, where the reference is zero or a difference.
         pub(crate) fn of_scale(self, scale: impl Fn(&Run<P>) -> f64 + Held) -> Self {
             let scale: Of<P, f64> = Box::new(scale);

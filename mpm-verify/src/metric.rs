@@ -32,6 +32,11 @@ macro_rules! metrics {
 }
 pub(crate) use metrics;
 
+/// The metrics of a list, without where they are measured.
+pub(crate) fn names<T>(measured: &[(Metric, T)]) -> impl Iterator<Item = Metric> {
+    measured.iter().map(|(metric, _)| *metric)
+}
+
 /// The values that a metric of this name can have, whatever the case and the run: names mean the same everywhere.
 pub(crate) fn possible(name: &str) -> RangeInclusive<f64> {
     const NEVER_NEGATIVE: [&str; 12] = [

@@ -12,7 +12,7 @@ pub(crate) use crate::exact::{Exact, Material};
 pub(crate) use crate::figure::{Figure, Panel, sampled};
 pub(crate) use crate::gallery::Gallery;
 pub(crate) use crate::job::{Job, Row, Snapshot, row};
-pub(crate) use crate::metric::{Metric, Sweep, error, metrics, value};
+pub(crate) use crate::metric::{Metric, Sweep, error, metrics, names, value};
 pub(crate) use crate::parameter::{
     Domain, Parameter, ParameterSet, Parameters, choices, flag, number, parameters, real, whole,
 };

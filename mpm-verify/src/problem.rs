@@ -1,6 +1,7 @@
 //! The problem of a case: what it simulates, observes and measures; and its one driver.
 
 use crate::error::Error;
+use crate::exact::common::DIMENSION;
 use crate::job::{Column, Job, Pulse, Row, Snapshot};
 use crate::metric::Metric;
 use crate::parameter::{ParameterSet, Parameters};
@@ -130,6 +131,23 @@ where
     P::Parameters: ParameterSet,
 {
     Ok(Box::new(Driver::new(P::new(Setup::of_spec(spec, parameters)?)?)?))
+}
+
+/// The same in as many dimensions as the parameter `dimension` says: in `A` of them, or else in `B`.
+///
+/// # Errors
+/// Those of [`begin`].
+pub(crate) fn begin_in<const A: usize, const B: usize, P>(
+    spec: &RunSpec,
+    parameters: &Parameters,
+) -> Result<Box<dyn Job>, Error>
+where
+    P: Problem<A, Parameters: ParameterSet> + Problem<B, Parameters: ParameterSet> + 'static,
+{
+    match parameters.number(DIMENSION) == A as f64 {
+        true => begin::<A, P>(spec, parameters),
+        false => begin::<B, P>(spec, parameters),
+    }
 }
 
 /// A run of a [`Problem`].
@@ -324,6 +342,12 @@ impl<'a, const D: usize> Columns<'a, D> {
     pub(crate) fn field(self, name: &'static str, unit: &'static str, field: Field) -> Self {
         let values = self.run.field(field);
         self.each(name, unit, |_, k| values[k])
+    }
+
+    /// A component of the Cauchy stress (Pa), as it enters the forces.
+    pub(crate) fn stress(self, name: &'static str, [i, j]: [usize; 2]) -> Self {
+        let stress = self.run.force_stress();
+        self.each(name, "Pa", |_, k| stress[k].get(i, j))
     }
 
     /// The volume ratio J.

@@ -286,6 +286,11 @@ impl Record {
         self.set.is_empty()
     }
 
+    /// Whether exactly these parameters were changed, as `name=value` apart by spaces.
+    pub(crate) fn changes(&self, set: &str) -> bool {
+        self.set.join(" ") == set
+    }
+
     /// Whether `name` is the only parameter that was changed.
     pub(crate) fn changes_only(&self, name: &str) -> bool {
         !self.set.is_empty() && self.changes_none_but(&[name])

@@ -6,6 +6,8 @@ use crate::prelude::*;
 /// Young's modulus (Pa) and density (kg/m³) before it deforms of a body whose problem prescribes neither.
 pub(super) const YOUNG_MODULUS: f64 = 1e6;
 pub(super) const DENSITY: f64 = 1000.0;
+/// Distance d̂ at which a barrier begins, in cells.
+pub(super) const REACH: f64 = 0.25;
 
 impl<P: ParameterSet> Setup<P> {
     /// Distance of particles (m), by the parameter `ppc_per_direction`.
@@ -92,4 +94,12 @@ pub(super) fn clamp(axis: usize, end: End) -> Wall {
 /// A wall along which material slides.
 pub(super) fn roller(axis: usize, end: End) -> Wall {
     Wall::new(axis, end, WallKind::Roller)
+}
+
+/// A number from −1 to 1, without order, by its place in a sequence; the same on every machine.
+pub(super) fn noise(k: usize) -> f64 {
+    let mut x = (k as u64).wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((x ^ (x >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }

@@ -3,6 +3,21 @@
 use crate::prelude::*;
 use mpm_core::monitor::Convergence;
 
+/// Rounding that sums over many steps or particles gather, relative; a smaller error is rounding.
+pub(super) const ROUNDING: f64 = 1e-9;
+/// Least error of what is conserved: less is rounding, which no golden should hold.
+pub(super) const LEAST_ERROR: f64 = 1e-12;
+/// Largest gain of energy of a rule that conserves it.
+pub(super) const NO_GAIN: f64 = 1e-4;
+/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
+pub(super) const SWING: f64 = 2.0;
+/// γ H over the undrained shear strength from which ground splashes or flows like water.
+pub(super) const SPLASHING: f64 = 40.0;
+/// Order of functions that reproduce linear fields.
+pub(super) const FORMAL: f64 = 2.0;
+/// Largest relative error of a squared frequency over (kh)², quadratic splines with fbar-rate where all of the stress is averaged,
+/// rounded up: docs/remedy.md.
+pub(super) const DISPERSION: f64 = 0.8;
 /// Levels or steps that decide an order.
 pub(super) const DECIDING: usize = 3;
 /// Roache's factors of safety, of three levels that show the order, and of those that do not (doi:10.1115/1.2910291).

@@ -1,6 +1,4 @@
 //! A column of water at rest: what creeps, creeps here; what grows by itself, grows here.
-//!
-//! Set-up, choices and tolerances: `docs/column.md`.
 
 use super::manufactured::foreign::{TIME, gaps_of_rest, of_rest};
 use super::manufactured::*;
@@ -59,7 +57,7 @@ pub(super) fn case() -> Case {
     .headline(KINETIC_ENERGY_PEAK, "largest kinetic energy (µJ/m)", 1e6, 4)
     .headline(BASE_PRESSURE, "pressure at the floor (Pa)", 1.0, 1)
     .pictures(pictures)
-    .table(ResultTable::of("column", |r| tables::changes(r, HALF_A_MILLION))
+    .table(ResultTable::of("column", |r| r.changes(HALF_A_MILLION))
         .by(&[SCHEME])
         .metric("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT)
         .metric("of J", TRUE_J_DRIFT_PER_1E5_STEPS, SHORT)
@@ -96,12 +94,9 @@ fn checks() -> Vec<Check> {
     vec![
         mass(),
         Gate::truth("base-pressure", "pressure at the floor ρ g H within the hydrostatic pressure of a quarter cell")
-            .unless(move |r| (weight(r) == 0.0).then(|| "nothing has weight".to_owned()))
-            .unless(|r| rings(r).then(|| "the column rings, and with it the pressure".to_owned()))
-            .unless(move |r| {
-                let creeps = is_long(r) && (grows(r) || r.remedy() == FbarRecursive);
-                creeps.then(|| "the column no longer rests: see creep and null-mode-grows".to_owned())
-            })
+            .except(move |r| weight(r) == 0.0, "nothing has weight")
+            .except(rings, "the column rings, and with it the pressure")
+            .except(move |r| is_long(r) && (grows(r) || r.remedy() == FbarRecursive), "the column no longer rests: see creep and null-mode-grows")
             .within(BASE_PRESSURE, move |r| weight(r) * r.number(HEIGHT), move |r| 0.25 * r.h * weight(r))
             .because("ρ g H; a quarter of a cell's head, by which an average moves the pressure at a wall"),
         Gate::known_limit("creep", "fbar-recursive: mean J of a cell drifts by more than 10⁻³ per 10⁵ steps")
@@ -110,7 +105,7 @@ fn checks() -> Vec<Check> {
             .because("Eq. (26) diffuses J with D = ½ s² h²/Δt"),
         Gate::truth("no-creep", "GIMP and quadratic splines except fbar-recursive, at least 10⁵ steps: mean J̄ of every cell drifts by at most 10⁻⁶ per 10⁵ steps")
             .when(rests)
-            .unless(move |r| (!is_long(r)).then(|| "the ringing of the start is not a drift".to_owned()))
+            .except(move |r| !is_long(r), "the ringing of the start is not a drift")
             .at_most(J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
             .because("the state of rest is one of the equations"),
         Gate::known_limit("null-mode-grows", "GIMP with fbar-total and fbar-rate, at least 10⁵ steps: kinetic energy of the last third more than 100 times that of the middle third")

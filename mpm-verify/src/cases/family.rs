@@ -2,10 +2,11 @@
 
 use crate::prelude::*;
 
-/// Every basis.
 pub(super) const BASES: [BasisName; 4] = [BasisName::Linear, BasisName::Gimp, BasisName::Bspline2, BasisName::Bspline3];
 
-/// Every remedy.
+/// Bases whose functions are smooth enough for particles that cross cells.
+pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
+
 pub(super) const REMEDIES: [RemedyName; 5] = [
     RemedyName::None,
     RemedyName::FbarRecursive,
@@ -61,6 +62,12 @@ pub(super) fn transfers(name: &str, labels: &[Label], more: &[&str], text: fn(&R
     });
     let shows = |r: &Record| main_pairs().contains(&Scheme::flip(r.basis(), r.remedy()));
     ResultTable::new(name, shows, labels, own.into_iter().chain(more)).least(2)
+}
+
+/// Two metrics, the ends of a range, as a table shows it.
+pub(super) fn range(r: &Record, ends: [Metric; 2]) -> String {
+    let [least, most] = ends.map(|end| fixed(2).text(r.metric(end)));
+    format!("{least} … {most}")
 }
 
 #[cfg(test)]

@@ -1,6 +1,4 @@
 //! Axis-aligned displacement: compression and extension without shear, in one, two and three dimensions.
-//!
-//! Set-up, choices and tolerances: `docs/mms-axis.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

@@ -1,6 +1,4 @@
 //! Double shear of a periodic body: no boundary at all.
-//!
-//! Set-up, choices and tolerances: `docs/mms-double-shear.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;
@@ -37,11 +35,7 @@ pub(super) fn case() -> Case {
     .table(tables::own_orders("mms-double-shear"))
     .table(tables::locking(
         "mms-double-shear-locking",
-        [
-            ("n8, 0.4999", "n8", ""),
-            ("n16, 0.4999", "n16", ""),
-            ("n32, 0.4999", "n32", ""),
-        ],
+        [("n8, 0.4999", "n8", ""), ("n16, 0.4999", "n16", ""), ("n32, 0.4999", "n32", "")],
     ))
     .table(tables::pressure("mms-double-shear-pressure", ["n8", "n16", "n32", "n64"]))
 }

@@ -1,6 +1,4 @@
 //! Isochoric swirl in three dimensions.
-//!
-//! Set-up, choices and tolerances: `docs/mms-swirl.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

@@ -1,6 +1,4 @@
 //! Isochoric vortex in a box: what locks, shows it here.
-//!
-//! Set-up, choices and tolerances: `docs/mms-vortex-box.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;
@@ -33,25 +31,20 @@ pub(super) fn case() -> Case {
     .checks(locking())
     .sweep(LOCKING_CURVE)
     .breaks_down(|r| {
-        let known = [
-            (Bspline2, FbarRate, "n128"),
-            (Linear, FbarTotal, "n64"),
-            (Gimp, FbarTotal, "n64"),
-        ];
-        let this = |k: &(_, _, &str)| *k == (r.basis(), r.remedy(), &r.level);
-        (r.is_default() && known.iter().any(this)).then_some(NULL_SPACE)
+        let scheme = (r.basis(), r.remedy(), &*r.level);
+        let known = matches!(scheme, (Bspline2, FbarRate, "n128") | (Linear | Gimp, FbarTotal, "n64"));
+        (r.is_default() && known).then_some(NULL_SPACE)
     })
     .pictures(|gallery| mean_stress(gallery, "n32", 600.0))
     .tables(tables())
 }
 
 fn plan() -> Plan {
-    let two = [Gimp, Bspline2];
-    let few = pairs(&two, &COMPARED);
+    let few = pairs(&SMOOTH, &COMPARED);
     let all = pairs(&BASES, &REMEDIES);
-    let limit = pairs(&two, &[RemedyName::None, FbarRecursive, FbarConsistent]);
+    let limit = pairs(&SMOOTH, &[RemedyName::None, FbarRecursive, FbarConsistent]);
     let [midpoint, newmark] = [RuleName::Midpoint, RuleName::Newmark]
-        .map(|rule| implicit(&[rule], &two, &[RemedyName::None, FbarConsistent]));
+        .map(|rule| implicit(&[rule], &SMOOTH, &[RemedyName::None, FbarConsistent]));
     let near = ["0.49999", "0.499999", "0.4999999"];
     let explicit = near.map(|nu| format!("poisson_ratio={nu} step_poisson_ratio={nu}"));
     let implicit = near.map(|nu| format!("cfl=50 poisson_ratio={nu}"));

@@ -1,6 +1,4 @@
 //! Vortex in a box with a bounded pressure: an average must give back the right pressure, not a small one.
-//!
-//! Set-up, choices and tolerances: `docs/mms-vortex-pressure.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

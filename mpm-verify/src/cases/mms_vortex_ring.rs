@@ -1,6 +1,4 @@
 //! Generalised vortex in a ring: rotation and shear with a body force that jumps.
-//!
-//! Set-up, choices and tolerances: `docs/mms-vortex-ring.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;

@@ -1,7 +1,5 @@
 //! Axis-aligned displacement with a pressure gradient normal to the walls: what a basis or an average does
 //! at a wall.
-//!
-//! Set-up, choices and tolerances: `docs/mms-wall-pressure.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;
@@ -42,21 +40,18 @@ pub(super) fn case() -> Case {
     .begun(begin::<WallPressure>)
     .table(tables::own_orders("mms-wall-pressure"))
     .table(tables::orders("mms-wall-pressure-rules", tables::is_of_rule))
-    .table(tables::orders("mms-wall-pressure-wall-line", |r| {
-        tables::changes(r, "wall=wall-line") && is_flip(r)
-    }))
+    .table(tables::orders("mms-wall-pressure-wall-line", |r| r.changes("wall=wall-line") && is_flip(r)))
     .table(tables::errors("mms-wall-pressure-large", large))
 }
 
 fn plan() -> Plan {
     let few = [RemedyName::None, FbarRate, FbarConsistent];
-    let two = [Gimp, Bspline2];
     let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &BASES[..3], &few[..1]);
     // GIMP's consistent mass is singular once particles have moved.
     let definite = [moved[0], moved[2]];
-    let own = pairs(&two, &few);
+    let own = pairs(&SMOOTH, &few);
     let splines = pairs(&[Bspline2, Bspline3], &few);
-    let solid = pairs(&two, &[FbarRecursive, FbarConsistent]);
+    let solid = pairs(&SMOOTH, &[FbarRecursive, FbarConsistent]);
     // Steps, each half as long as the one before; the same with a consistent and a lumped mass.
     let halved = ["cfl=0.4375", "cfl=0.21875", "cfl=0.109375"];
     let consistent = halved.map(|cfl| format!("{cfl} lumped=0"));

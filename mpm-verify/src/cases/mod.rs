@@ -1,4 +1,4 @@
-//! The problems, a folder or a file each.
+//! The problems, a folder or a file each. The page `docs/NAME.md` of a problem has its set-up and choices, and derives its bounds.
 
 use crate::case::Case;
 use crate::error::Error;
@@ -35,7 +35,6 @@ mod mms_vortex_pressure;
 mod mms_vortex_ring;
 mod mms_wall_pressure;
 mod newton;
-mod noise;
 mod observe;
 pub(crate) mod parameters;
 mod patch;

@@ -4,15 +4,11 @@ use crate::prelude::*;
 
 pub(super) use crate::exact::common::{DENSITY, POISSON_RATIO, UNSEEN, YOUNG_MODULUS};
 
-/// Words of [`WALL`].
 pub(super) const WALL_LINE: &str = "wall-line";
-/// Word of [`TIME_STEP`].
 pub(super) const AUTO: &str = "auto";
 
 choices! {
-    /// How B-splines meet walls.
     pub(super) enum Wall { OpenKnot = "open-knot", WallLine = "wall-line" }
-    /// How the time step is found.
     pub(super) enum TimeStep { Cfl = "cfl", Auto = "auto" }
 }
 

@@ -1,6 +1,4 @@
 //! A body that stretches, shears and falls: what a scheme must reproduce exactly, next to walls too.
-//!
-//! Set-up, choices and tolerances: `docs/patch.md`.
 
 use crate::cases::build::DENSITY;
 use crate::cases::prelude::*;
@@ -25,8 +23,7 @@ const DOWN: [f64; 3] = [0.6, 0.8, 1.0];
 const MARGIN: f64 = 3.0;
 /// Cells of room beyond the body's way.
 const ROOM: f64 = 3.0;
-/// Rounding of a few steps, and last bits of a coordinate that a step may lose.
-const ROUNDING: f64 = 1e-9;
+/// Last bits of a coordinate that a step may lose.
 const LAST_BITS: f64 = 4.0;
 /// An error that tells nothing.
 const VAGUE: f64 = 0.1;
@@ -72,16 +69,12 @@ pub(super) fn case() -> Case {
         .headline(STRESS_ERROR, "stress (–)", 1.0, 9)
         .headline(DAMPED_RATIO, "work of damping / exact (–)", 1.0, 6)
         .watched(&["displacement_error", "kinetic_energy"])
-        .sketch(Sketch::of("A cube that stretches, shears and falls away from the walls of its corner.")
-            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .sketch(Sketch::block("A cube that stretches, shears and falls away from the walls of its corner.", [1.0, 1.0])
             .load([0.4, 0.4], [0.7, 0.7])
             .note([0.5, -0.1], "wall that doesn't hold")
             .length([0.0, 1.1], [1.0, 1.1], "1 m"))
         .cost(|_| 0.01)
-        .begun(|spec, values| match Setup::<Moved>::of_spec(spec, values)?.dimension {
-            2 => crate::problem::begin::<2, Moving>(spec, values),
-            _ => crate::problem::begin::<3, Moving>(spec, values),
-        })
+        .begun(problem::begin_in::<2, 3, Moving>)
 }
 
 fn plan() -> Plan {
@@ -139,13 +132,13 @@ fn checks() -> Vec<Check> {
         Check::truth("affine", "apic, and flip three cells inside: motion and stress of a constant ∇v exact within what stress moves, moments change and (flip) the lattice strains")
             .when(|b| b.strain > 0.0 && b.damping == 0.0)
             .when(|b| b.transfer() == TransferName::Apic || b.scheme == Scheme::flip(b.basis(), b.remedy()))
-            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
-            .unless(|b| (b.remedy() != RemedyName::None).then(|| "an average reaches from the sides to all particles".to_owned()))
+            .except(|b| b.affine_bound() > VAGUE, VAGUELY)
+            .except(|b| b.remedy() != RemedyName::None, "an average reaches from the sides to all particles")
             .each([DISPLACEMENT_ERROR, VELOCITY_ERROR, STRESS_ERROR].map(|of| Demand::at_most(of, |b: &Run<Moved>| b.affine_bound())))
             .because("APIC keeps an affine field wherever particles lie (Jiang et al. 2015); nodes amid a regular lattice have their mass' centre"),
         Check::truth("filter", "xpic2: of a constant ∇v it keeps what (1 − S S⁺)² leaves to lines of particles, within twenty times what functions change in motion")
             .when(|b| b.strain > 0.0 && b.fall == 0.0 && b.transfer() == TransferName::Xpic2)
-            .unless(|b| (b.affine_bound() > VAGUE).then(|| VAGUELY.to_owned()))
+            .except(|b| b.affine_bound() > VAGUE, VAGUELY)
             .at_most(VELOCITY_ERROR, |b| b.affine_bound())
             .because("Hammerquist & Nairn 2017: (1 − S S⁺)^m is taken in every step; functions in closed form, docs/patch.md"),
         Check::truth("free-fall", "without a strain: displacement and velocity are those of a constant acceleration to rounding, implicit to what Newton's method leaves")

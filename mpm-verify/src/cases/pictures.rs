@@ -88,13 +88,11 @@ impl Fields {
         Self(FieldFigure { title, panels, columns: 2, range, label, ..FieldFigure::default() })
     }
 
-    /// With a title above the panels.
     pub(super) fn titled(mut self, title: String) -> Self {
         self.0.title = title;
         self
     }
 
-    /// At most this number in a row.
     pub(super) fn columns(mut self, columns: usize) -> Self {
         self.0.columns = columns;
         self

@@ -3,17 +3,13 @@
 use crate::cases::prelude::*;
 use mpm_core::poro::PressureSpace;
 
-/// Weight of water (N/m³).
 pub(super) const WATER_WEIGHT: f64 = 9810.0;
-/// Parameters of all.
 pub(super) const CONDUCTIVITY: Parameter =
     real("m/s", "1e-5", 1e-12, 1.0).named("conductivity").meaning("hydraulic conductivity k, of water of 9810 N/m³");
 pub(super) const PROJECTION: Parameter =
     real("-", "1", 0.01, 100.0).named("projection").meaning("ppp: its strength times 2G");
 pub(super) const TOLERANCE: Parameter =
     real("-", "1e-10", 1e-13, 1e-8).named("tolerance").meaning("residual of a converged step over what it balances");
-/// Smaller values are rounding.
-pub(super) const ROUNDING: f64 = 1e-9;
 
 /// Height (m) of a column, particles a cell, and empty cells above.
 pub(super) const HEIGHT: f64 = 1.0;
@@ -43,8 +39,7 @@ pub(super) fn kept<const D: usize>(columns: Columns<'_, D>) -> Columns<'_, D> {
 
 /// A column under its load.
 pub(super) fn column_sketch(description: &'static str) -> Sketch {
-    Sketch::of(description)
-        .body([[0.0, 0.0], [0.3, 0.0], [0.3, 1.0], [0.0, 1.0]])
+    Sketch::block(description, [0.3, 1.0])
         .held([0.0, 0.0], [0.3, 0.0])
         .length([-0.1, 0.0], [-0.1, 1.0], "1 m")
         .note([0.15, 1.2], "q, drained")

@@ -1,10 +1,10 @@
 //! The names that nearly every case uses.
 
 pub(super) use super::analysis::{Analysis, case_of, visited};
-pub(super) use super::build::{by_columns, by_rows, clamp, lattice, middles, roller, stretched};
+pub(super) use super::build::{REACH, by_columns, by_rows, clamp, lattice, middles, noise, roller, stretched};
 pub(super) use super::checks::*;
 pub(super) use super::family::{
-    BASES, REMEDIES, implicit, levels, main_pairs, other_transfers, pairs, remedy_cost, transfers,
+    BASES, REMEDIES, SMOOTH, implicit, levels, main_pairs, other_transfers, pairs, range, remedy_cost, transfers,
 };
 pub(super) use super::observe::{displacement, farthest, finds_equilibrium, places};
 pub(super) use super::parameters::{self as common, least_strain, require_quotient};

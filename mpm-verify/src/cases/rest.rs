@@ -1,6 +1,4 @@
 //! A slope at rest: what creeps or grows in a long time of nothing.
-//!
-//! Set-up, choices and tolerances: `docs/rest.md`.
 
 use super::manufactured::*;
 use crate::cases::prelude::*;
@@ -59,7 +57,7 @@ pub(super) fn case() -> Case {
 }
 
 fn table(name: &str, set: &'static str) -> ResultTable {
-    ResultTable::of(name, move |r| tables::changes(r, set))
+    ResultTable::of(name, move |r| r.changes(set))
         .by(&[SCHEME])
         .metric("rms distance from rest (m)", DISPLACEMENT_L2, SHORT)
         .metric("drift of J̄ per 10⁵ steps", J_DRIFT_PER_1E5_STEPS, SHORT)
@@ -85,7 +83,7 @@ fn checks() -> Vec<Check> {
             .because("uniaxial strain under the weight; a quarter of a cell, by which an average moves the pressure at a wall"),
         Gate::truth("no-growth", "GIMP and quadratic splines, all but fbar-recursive: peak kinetic energy of the last third at most twice that of the middle third, and rounding")
             .when(is_sound)
-            .unless(|r| r.metric(KINETIC_GROWTH).is_nan().then(|| "nothing moves, or not for three rows".to_owned()))
+            .except(|r| r.metric(KINETIC_GROWTH).is_nan(), "nothing moves, or not for three rows")
             .at_most(KINETIC_GROWTH, |r| BEATS + ROUNDING / r.metric(KINETIC_ENERGY_PEAK))
             .because("nothing feeds a motion; two hundred samples of a ringing that nothing damps don't meet its peaks"),
         Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")

@@ -1,6 +1,4 @@
 //! Standing gravity wave in a box of slightly compressible water, over many periods.
-//!
-//! Set-up, choices and tolerances: `docs/standing-wave.md`.
 
 use super::manufactured::*;
 use super::parameters::FLIP;
@@ -139,8 +137,8 @@ pub(super) fn case() -> Case {
     .headline(LOG_JACOBIAN_GAP, "ln(J/J̄) (–)", 1.0, 4)
     .quantity(error(FREQUENCY_ERROR, "relative error of the frequency"))
     .table(periods("standing-wave-two-periods", &[SCHEME], Record::is_default))
-    .table(periods("standing-wave-twenty-periods", &[SCHEME], |r| tables::changes(r, TWENTY_PERIODS)))
-    .table(periods("standing-wave-held", &[SCHEME], |r| tables::changes(r, HELD)))
+    .table(periods("standing-wave-twenty-periods", &[SCHEME], |r| r.changes(TWENTY_PERIODS)))
+    .table(periods("standing-wave-held", &[SCHEME], |r| r.changes(HELD)))
     .table(periods("standing-wave-rules", &[SCHEME, steps], |r| r.scheme().rule().is_some()))
     .breaks_down(|r| {
         let disordered = Setup::<()>::of_record(r).is_ok_and(|r| {
@@ -210,7 +208,7 @@ fn checks() -> Vec<Check> {
             .because("the pressure drives it with no more than itself"),
         Gate::truth("no-energy-gain", "none and fbar-consistent, not newmark: energy above its start at most 2 % of the peak kinetic one, half a step and initial sound")
             .when(|r| matches!(r.remedy(), RemedyName::None | FbarConsistent) && r.rule() != Some(RuleName::Newmark))
-            .unless(|r| (frequency(&r.values) * r.dt() > 1.0).then(|| "a step is longer than a radian of the wave".to_owned()))
+            .except(|r| frequency(&r.values) * r.dt() > 1.0, "a step is longer than a radian of the wave")
             .at_most(ENERGY_GAIN, |_| 0.02)
             .because("the force takes what is stored"),
     ]
@@ -220,10 +218,7 @@ fn checks() -> Vec<Check> {
 fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
     for (basis, level) in SMOOTH.into_iter().flat_map(|b| [(b, "n8"), (b, "n16")]) {
-        let own = |r: &&Record| {
-            let here = r.level == level && r.basis() == basis && is_flip(r);
-            here && tables::changes(r, TWENTY_PERIODS)
-        };
+        let own = |r: &&Record| r.level == level && r.basis() == basis && is_flip(r) && r.changes(TWENTY_PERIODS);
         let runs = || gallery.records.iter().filter(own);
         let broken = runs().filter(|r| r.status == Status::Failed);
         let energy = |t: &Table| t.points("time", "kinetic_energy");

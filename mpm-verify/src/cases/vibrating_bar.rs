@@ -1,6 +1,4 @@
 //! A bar that vibrates for a hundred periods: frequency, damping and what averaging does to stiffness.
-//!
-//! Set-up, choices and tolerances: `docs/vibrating-bar.md`.
 
 use super::manufactured::foreign::{TIME, gaps_of_wave, of_wave};
 use super::manufactured::*;

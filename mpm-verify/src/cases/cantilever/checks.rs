@@ -66,17 +66,17 @@ pub(super) fn checks() -> Vec<Check> {
             .because("the criterion of convergence"),
         Check::truth("newton", "stabilised runs of ten steps or more: at most 7 Newton iterations a step, 3 to reach quadratic convergence, 4 from 10⁻¹ to the tolerance")
             .when(|b| b.load_steps >= 10 && !b.is_unstable())
-            .unless(|b| (b.poisson_ratio > 0.49).then(|| "nearly incompressible: steps start outside of quadratic convergence".to_owned()))
+            .except(|b| b.poisson_ratio > 0.49, "nearly incompressible: steps start outside of quadratic convergence")
             .at_most(NEWTON_ITERATIONS, |b| 7.0 * f64::from(b.load_steps))
             .because("quadratic convergence with the exact tangent"),
         quadratic(NEWTON_RATE, |b: &Beam| b.stiffnesses())
             .when(|b| !b.is_unstable())
-            .unless(|b| (b.tolerance < b.metric(FORCE_ROUNDING)).then(|| "rounding ends the iterations, not the tolerance".to_owned()))
+            .except(|b| b.tolerance < b.metric(FORCE_ROUNDING), "rounding ends the iterations, not the tolerance")
             .because("the exact tangent, and how much stiffer a beam is along itself and to a change of volume: docs/newton.md"),
         Check::truth("corner", "u_y of the corner within 0.6, 0.25, 0.1, 0.05 % of the finite elements at h = 0.1, 0.05, 0.025, 0.0125 m")
             .unless(|b| b.solution().err())
-            .unless(|b| b.asked().is_some_and(|asked| b.tolerance > 0.1 * asked).then(|| "Newton's tolerance hides the error".to_owned()))
-            .unless(|b| b.asked().is_none().then(|| "no error is asked for at this level".to_owned()))
+            .except(|b| b.asked().is_some_and(|asked| b.tolerance > 0.1 * asked), "Newton's tolerance hides the error")
+            .except(|b| b.asked().is_none(), "no error is asked for at this level")
             .within(
                 CORNER_UY,
                 |b| b.solution().map_or(f64::NAN, |s| s.bottom_right[1]),

@@ -1,6 +1,8 @@
-//! Metrics of the beam's free end and of its stresses, for our runs and for other codes.
+//! Metrics of the beam's free end and of its stresses, for our runs and for other codes, and the finite elements of high order that
+//! they are compared with, at one load and three laws.
 
 use super::*;
+use crate::exact::cantilever::{self, Solution, Stresses};
 
 /// Particles, column by column, and probes of the stress.
 pub(super) struct Edge {
@@ -76,4 +78,34 @@ impl Edge {
 
 pub(super) fn extremes(field: &[f64]) -> [f64; 2] {
     (field.iter()).fold([f64::INFINITY, f64::NEG_INFINITY], |[lo, hi], s| [lo.min(*s), hi.max(*s)])
+}
+
+impl Setup<Cantilever> {
+    /// The stresses; those of rate laws are not known.
+    pub(super) fn stresses(&self) -> Result<&'static Stresses, String> {
+        let stored = cantilever::stresses().ok_or("the stored stresses can't be read")?;
+        self.solution()?;
+        if self.young_modulus != 1e5 {
+            return Err("the reference is for E = 100 kPa".to_owned());
+        }
+        match self.law {
+            LawName::Hencky => Ok(&stored.hencky),
+            LawName::NeoHookean => Ok(&stored.neo_hookean),
+            _ => Err("no reference stresses of Jaumann's law".to_owned()),
+        }
+    }
+
+    /// The solution: displacements depend on ν and weight over E alone.
+    pub(super) fn solution(&self) -> Result<&'static Solution, String> {
+        let stored = cantilever::solutions().ok_or("the stored reference can't be read")?;
+        let load = self.weight / self.young_modulus;
+        if (load - 0.04).abs() > 1e-12 || self.poisson_ratio != 0.0 {
+            return Err("the reference is for ν = 0 and weight/E = 0.04/m".to_owned());
+        }
+        Ok(match self.law {
+            LawName::Hencky => &stored.hencky,
+            LawName::NeoHookean => &stored.neo_hookean,
+            _ => &stored.jaumann,
+        })
+    }
 }

@@ -21,7 +21,6 @@ fn given_edge<const N: usize>(given: &Given, columns: [&Asked; N]) -> Result<Giv
 }
 
 pub(in crate::cases) fn foreign() -> Foreign {
-    let stresses = STRESSES.iter().map(|(metric, _)| *metric);
     let of_all = [STRESS_MIN, STRESS_MAX, STRESS_ERROR];
     let moved = [CORNER_UX, CORNER_UY, EDGE_MEAN_UX, EDGE_MEAN_UY, CORNER_ERROR, EDGE_MEAN_ERROR];
     let groups = vec![
@@ -29,7 +28,7 @@ pub(in crate::cases) fn foreign() -> Foreign {
             let (edge, setup, [ux, uy]) = given_edge(given, [&MOVED_X, &MOVED_Y])?;
             Ok(edge.of_displacement([&ux, &uy], &setup))
         }),
-        Group::new(&[START_X, START_Y, STRESS], of_all.into_iter().chain(stresses), |given| {
+        Group::new(&[START_X, START_Y, STRESS], of_all.into_iter().chain(names(STRESSES)), |given| {
             let (edge, setup, [stress]) = given_edge(given, [&STRESS])?;
             Ok(edge.of_stress(&stress, &setup))
         }),

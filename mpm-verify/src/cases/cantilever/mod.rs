@@ -1,19 +1,17 @@
 //! A cantilever under its weight: the quasi-static case of the implicit paper.
 //!
-//! Section 3.1 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/cantilever.md`.
+//! Section 3.1 of Wang, Vardon, Hicks & Chen (2016).
 
 mod checks;
 mod edge;
 mod figures;
 pub(super) mod foreign;
-mod reference;
 mod run;
 
 use crate::cases::prelude::*;
 use BasisName::Q8;
 use run::{DEPTH, LENGTH};
 
-/// Levels with their titles.
 const LEVELS: [(&str, &str); 4] =
     [("h0.1", "h = 0.1 m"), ("h0.05", "0.05"), ("h0.025", "0.025"), ("h0.0125", "0.0125")];
 /// The paper's choices.
@@ -79,7 +77,7 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let metrics: Vec<Metric> = OWN.iter().copied().chain(STRESSES.iter().map(|(metric, _)| *metric)).collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(names(STRESSES)).collect();
     Case::of::<2, run::Bending>("cantilever", "Cantilever under its weight", &metrics)
         .planned(plan())
         .described("An elastic beam in plane strain, clamped on the left, bends under its own weight by half its length, quasi-statically: \
@@ -104,8 +102,7 @@ pub(super) fn case() -> Case {
         .quantity(error(STRESS_ERROR, "relative error of σ_xx near the clamp"))
         .watched(&["corner_uy", "newton_iterations"])
         .field(FieldView::at_end(["stress_xx", "σ_xx at 4 kN/m³ (Pa)"], (-4e4, 4e4), [(-0.05, 1.05), (-0.65, 0.35)]))
-        .sketch(Sketch::of("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.")
-            .body([[0.0, 0.0], [LENGTH, 0.0], [LENGTH, DEPTH], [0.0, DEPTH]])
+        .sketch(Sketch::block("A beam 1 m long and 0.3 m deep, clamped on its left side, under its own weight.", [LENGTH, DEPTH])
             .held([0.0, 0.0], [0.0, DEPTH])
             .length([0.0, -0.1], [LENGTH, -0.1], "1 m")
             .length([1.12, 0.0], [1.12, DEPTH], "0.3 m")

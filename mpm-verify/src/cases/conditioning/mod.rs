@@ -1,6 +1,6 @@
 //! Matrices of solid and water on a grid that cuts a body, and the effect of ghost penalties on them.
 //!
-//! Section 5.2 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/conditioning.md`.
+//! Section 5.2 of Pretti et al., doi:10.1002/nme.7630.
 
 mod run;
 
@@ -10,8 +10,6 @@ use run::HALF_AXES;
 const LEVELS: [Level; 1] = [Level { name: "h0.1", h: 0.1 }];
 /// Unknowns of the displacement, at most.
 const UNKNOWNS: f64 = 500.0;
-/// Rounding of equal values of two runs.
-const ROUNDING: f64 = 1e-9;
 /// Places from which on a spread is judged.
 const PLACES: usize = 40;
 
@@ -89,7 +87,6 @@ fn sketch() -> Sketch {
     .note([0.0, 0.25], "moved through 2 h")
 }
 
-/// The bounds are derived in `docs/conditioning.md`.
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Ellipse>;
     const WORK: &str = "the work of a load falls as stiffness grows";

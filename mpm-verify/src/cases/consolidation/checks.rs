@@ -3,8 +3,6 @@
 use super::*;
 use crate::exact::consolidation::layer;
 
-/// The order in h that theory gives.
-const THEORY: f64 = 2.0;
 /// Cells of the pressure in the layer at the drained top from which on an order is asymptotic.
 const RESOLVING: f64 = 2.0;
 /// The load at which no particle crosses a cell.
@@ -43,7 +41,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::truth("order-time", "three refinements, each twice the one before: settlement at T = 2 of order in the number of steps at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| r.changes_none_but(&["refine"]));
-                let orders = orders_in_time("time", own, |r| number(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
+                let orders = orders_in_time("time", own, |r| Filled::number_of(r, |c| f64::from(c.refine)), 4, SETTLEMENT_END);
                 at_least(orders, 1.0, "backward Euler's rule")
             }),
         // A domain of h/2 that sinks by s ≤ S has the share 2 s/h in the next cell, whose strain is another by h ε′: settlements S
@@ -81,7 +79,7 @@ fn balance_error(c: &Run<Consolidation>) -> f64 {
 
 /// Whether the cells of the pressure resolve the layer.
 fn resolves(r: &Record) -> bool {
-    Setup::<Consolidation>::holds(r, |c| {
+    Filled::holds(r, |c| {
         let cell = if c.space() == Some(TwoGrid) { 2.0 * c.h } else { c.h };
         layer(c.load).is_some_and(|layer| RESOLVING * cell <= layer)
     })
@@ -90,7 +88,8 @@ fn resolves(r: &Record) -> bool {
 /// GIMP's three finest runs that change the load alone, by load and scheme, coarsest first.
 fn ladders(records: &[Record]) -> BTreeMap<(String, Scheme), Vec<&Record>> {
     let own = |r: &&Record| r.basis() == Gimp && r.status == Status::Ok && r.changes_none_but(&["load"]);
-    let ladders = ladders_by(records.iter().filter(own), |r| (number(r, |c| c.load).to_string(), r.scheme()));
+    let ladders =
+        ladders_by(records.iter().filter(own), |r| (Filled::number_of(r, |c| c.load).to_string(), r.scheme()));
     ladders.into_iter().filter_map(|(key, runs)| Some((key, finest(&runs)?.to_vec()))).collect()
 }
 
@@ -102,7 +101,7 @@ fn orders(records: &[Record]) -> Vec<Finding> {
             let order = observed_order(&runs, |r| r.discretisation.h, error);
             let name = format!("order of {} of {scheme} at {load} M₀", error.name);
             let why = "displacements and pressures are linear in a cell, stresses and fluxes means over domains";
-            Finding::above(name, order, THEORY - SLACK, why)
+            Finding::above(name, order, FORMAL - SLACK, why)
         })
     };
     ladders.into_iter().flat_map(of).collect()
@@ -113,11 +112,11 @@ fn orders(records: &[Record]) -> Vec<Finding> {
 fn richardson(records: &[Record]) -> Vec<Finding> {
     let of = |((load, scheme), runs): ((String, Scheme), Vec<&Record>)| {
         let [coarse, middle, fine] = runs[..] else { return None };
-        let exact = Setup::<Consolidation>::of_record(fine).ok()?;
+        let exact = Filled::of_record(fine).ok()?;
         let exact = solution(exact.load, Some(f64::from(exact.refine)));
         let exact = exact.first()?.settlement;
         let settled = [coarse, middle, fine].map(|r| r.metric(SETTLEMENT_EARLY));
-        let index = index(settled, THEORY, resolves(coarse));
+        let index = index(settled, FORMAL, resolves(coarse));
         let metric = format!("error of {} of {scheme} at {load} M₀", SETTLEMENT_EARLY.name);
         let why = format!("Roache's index of the two finest, order {:.2}, factor {}", index.order, index.safe);
         Some(Finding::at_most(metric, (settled[2] - exact).abs(), index.bound, why))

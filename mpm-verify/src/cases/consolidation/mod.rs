@@ -1,29 +1,15 @@
 //! Consolidation of a column at finite strain: the solver of solid and water against an independent solution.
-//!
-//! Set-up, reference and tolerances: `docs/consolidation.md`.
 
 mod checks;
 pub(super) mod foreign;
 mod run;
 
-use super::poro::{HEIGHT, ROUNDING, column_sketch, spaces};
+use super::poro::{HEIGHT, column_sketch, spaces};
 use crate::cases::prelude::*;
 use crate::exact::consolidation::{At, solution};
 
 const LEVELS: [(&str, f64); 6] =
     [("n8", 8.0), ("n16", 16.0), ("n32", 32.0), ("n64", 64.0), ("n128", 128.0), ("n256", 256.0)];
-/// Ghost penalties, on displacements, on pressures, and on both as other cases have them.
-const GHOSTS: [&str; 9] = [
-    "ghost_displacement=0.01",
-    "ghost_displacement=0.1",
-    "ghost_displacement=1",
-    "ghost_displacement=10",
-    "ghost_pressure=0.001",
-    "ghost_pressure=0.01",
-    "ghost_pressure=0.1",
-    "ghost_pressure=1",
-    "ghost_displacement=0.1 ghost_pressure=0.01",
-];
 const VOLUME_RATE: Parameter = Rate::Exact.by_default().named("volume_rate");
 
 choices! {
@@ -88,7 +74,7 @@ pub(super) fn case() -> Case {
         .pictures(pictures)
         .tables(tables())
         .breaks_down(|r| {
-            let large = Setup::<Consolidation>::holds(r, |c| c.load >= 0.3);
+            let large = Filled::holds(r, |c| c.load >= 0.3);
             (r.basis() == Linear && large)
                 .then_some("linear functions: particles that cross cells leave the one above empty, and the top stands on a node that bears nothing")
         })
@@ -110,27 +96,28 @@ fn plan() -> Plan {
         .runs(Nightly, COARSE, &both, "load=0.003")
         .each(Pr, "n16", two_grid, ["refine=1", "refine=2"])
         .each(Nightly, "n16", two_grid, ["", "load=1", "refine=1"].map(|set| format!("{set} volume_rate=logarithmic")))
-        .each(Nightly, COARSE, two_grid, GHOSTS)
+        .each(Nightly, COARSE, two_grid, ["0.01", "0.1", "1", "10"].map(|of| format!("ghost_displacement={of}")))
+        .each(Nightly, COARSE, two_grid, ["0.001", "0.01", "0.1", "1"].map(|of| format!("ghost_pressure={of}")))
+        // As other cases have them.
+        .runs(Nightly, COARSE, two_grid, "ghost_displacement=0.1 ghost_pressure=0.01")
         .each(Nightly, COARSE, &gimp, ["drain=100", "drain=1e3"])
 }
 
-fn number(r: &Record, of: fn(&Setup<Consolidation>) -> f64) -> f64 {
-    Setup::number_of(r, of)
-}
+type Filled = Setup<Consolidation>;
 
 fn tables() -> Vec<ResultTable> {
-    const LOADED: Label = ("load", |r| format!("{} M₀", number(r, |c| c.load)));
-    const GHOST_U: Label = ("α_u", |r| number(r, |c| c.ghost_displacement).to_string());
-    const GHOST_P: Label = ("α_p", |r| number(r, |c| c.ghost_pressure).to_string());
+    const LOADED: Label = ("load", |r| format!("{} M₀", Filled::number_of(r, |c| c.load)));
+    const GHOST_U: Label = ("α_u", |r| Filled::number_of(r, |c| c.ghost_displacement).to_string());
+    const GHOST_P: Label = ("α_p", |r| Filled::number_of(r, |c| c.ghost_pressure).to_string());
     const RATE: Label = ("rate", |r| r.parameters.text(VOLUME_RATE));
-    const STEPS: Label = ("steps", |r| number(r, |c| c.count()).to_string());
+    const STEPS: Label = ("steps", |r| Filled::number_of(r, |c| c.count()).to_string());
     let errors = |levels: &[(&'static str, f64)], title: &str| {
         let levels = levels.iter().map(|(level, n)| (*level, format!("{title}n = {n}")));
         Column::levels(levels, SETTLEMENT_ERROR_STEPS, share(3))
     };
     let of_drains = [100.0, 1e3, 1e4].into_iter().flat_map(|drain| {
         LEVELS[..3].iter().map(move |(level, n)| {
-            let at = move |r: &Record| r.level == *level && number(r, |c| c.drain) == drain;
+            let at = move |r: &Record| r.level == *level && Filled::number_of(r, |c| c.drain) == drain;
             Column::metric(format!("β h/κ₀ = {drain}, n = {n}"), SETTLEMENT_ERROR_STEPS, share(3)).of(at)
         })
     });
@@ -175,7 +162,7 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     for load in [0.3, 1.0] {
         let own = |r: &&Record| {
             let own = r.basis() == Gimp && r.status == Status::Ok && r.level == "n8";
-            own && r.changes_none_but(&["load"]) && number(r, |c| c.load) == load
+            own && r.changes_none_but(&["load"]) && Filled::number_of(r, |c| c.load) == load
         };
         for (column, label, value) in quantities {
             let exact = solution(load, None).into_iter().map(|at| (at.t, 100.0 * value(&at)));

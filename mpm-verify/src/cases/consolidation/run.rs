@@ -44,7 +44,6 @@ impl Setup<Consolidation> {
         [None, Some(f64::from(self.refine))].map(|steps| solution(self.load, steps))
     }
 
-    /// The settlement of a column, and its errors.
     pub(super) fn settlement_metrics(&self, seen: &[At]) -> Vec<(Metric, f64)> {
         let [whole, of_steps] = self.exact();
         let off = |own: &At, exact: &At| own.settlement / exact.settlement - 1.0;
@@ -57,7 +56,6 @@ impl Setup<Consolidation> {
         ]
     }
 
-    /// Errors of the pressure at the base of a column.
     pub(super) fn base_pressure_metrics(&self, seen: &[At]) -> Vec<(Metric, f64)> {
         let [whole, of_steps] = self.exact();
         let off = |own: &At, exact: &At| own.base - exact.base;

@@ -206,7 +206,6 @@ impl Run<'_, Cook> {
         self.swings().or_else(|| moves.then(|| "the body still moves at the end: see at-rest".to_owned()))
     }
 
-    /// The number of particles that is known.
     fn count(&self) -> Option<f64> {
         let counted = COUNTS.iter().find(|(size, _)| *size == self.h && self.record.discretisation.ppc == 4);
         counted.map(|(_, count)| *count)
@@ -222,7 +221,6 @@ impl Run<'_, Cook> {
     }
 }
 
-/// The relative error of the mid-edge deflection of a record, with the load at its place.
 pub(super) fn mid_edge_error(r: &Record) -> f64 {
     Run::<Cook>::of(r).map_or(f64::NAN, |run| run.mid_edge_error())
 }
@@ -239,12 +237,12 @@ fn shortfall(of: Measure) -> Quantity<Cook> {
 /// A displacement against the reference, where another check does not say why it is off.
 fn displacement(of: Measure) -> Demand {
     let demand = Demand::within(of.metric(), move |c| c.exact(of), move |c| c.tolerance(of))
-        .unless(move |c| (c.is_compressible() && c.is_free_of_locking() && of != Tip).then(|| COMPRESSIBLE.to_owned()))
+        .except(move |c| c.is_compressible() && c.is_free_of_locking() && of != Tip, COMPRESSIBLE)
         .unless(|c| c.solution().err())
         .unless(|c| c.still_moves())
-        .unless(move |c| c.is_soft().then(|| "see soft-rim".to_owned()));
+        .except(move |c| c.is_soft(), "see soft-rim");
     match of {
-        Tip => demand.unless(|c| c.is_too_stiff().then(|| "see too-stiff-with-more-particles".to_owned())),
+        Tip => demand.except(|c| c.is_too_stiff(), "see too-stiff-with-more-particles"),
         _ => demand.when(|c| !c.is_too_stiff()),
     }
 }
@@ -252,7 +250,7 @@ fn displacement(of: Measure) -> Demand {
 pub(super) fn checks() -> Vec<crate::check::Check> {
     vec![
         Check::bookkeeping("particle-count", "1,448, 5,776, 23,072 and 92,224 particles at h = 2, 1, ½ and ¼ with two per direction; the second and third are the paper's")
-            .unless(|c| c.count().is_none().then(|| "counted for two particles per direction only".to_owned()))
+            .except(|c| c.count().is_none(), "counted for two particles per direction only")
             .within(Quantity::new("particles", |c| c.record.work.particles as f64), |c| c.count().unwrap_or(f64::NAN), |_| 0.0)
             .because("Zhao et al. 2023, section 4.1 (h = 1 and ½); the same rule elsewhere"),
         Check::truth("no-energy-gain", "kinetic energy, stress work and losses exceed the load's work by at most 0.1 % of it, as symplectic Euler oscillates at CFL 0.3")
@@ -296,7 +294,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because("equilibrium"),
         Check::truth("newton", "quasi-static, rim held: at most as many Newton iterations as square the turn of a step to the tolerance, and two more a step")
             .when(|c| !c.is_explicit() && c.is_held())
-            .unless(|c| (c.contraction() >= 1.0).then(|| "a step turns the body farther than the first iteration can follow".to_owned()))
+            .except(|c| c.contraction() >= 1.0, "a step turns the body farther than the first iteration can follow")
             .at_most(NEWTON_ITERATIONS, |c| c.most_iterations())
             .because("quadratic convergence with the exact tangent"),
         Check::known_limit("locked", "none with GIMP: rms(σ_m − Πσ_m) above 0.5 rms σ_m")
@@ -329,7 +327,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because("functions of the rim that see hardly any material bear hardly any load; the explicit case has them too"),
         Check::truth("large-loads", "quasi-static, rim held, 10 to 50 N, h = 1 m, except GIMP without a remedy: right side within 1 % of FEM with the load on the same line of material")
             .each([MidEdge, EdgeMean].map(|of| {
-                Demand::known(of.metric(), move |c| c.under_large_load(of)).unless(|c| (c.basis() == Gimp && !c.is_free_of_locking()).then(|| "see locked".to_owned()))
+                Demand::known(of.metric(), move |c| c.under_large_load(of)).except(|c| c.basis() == Gimp && !c.is_free_of_locking(), "see locked")
             }))
             .because("finite elements of degree 4 under the same load on the same line, this project"),
         Check::truth("tip", "u_y at (48, 60) m within 2 % of the FEM reference; above h = 1 m as for mid-edge")
@@ -359,10 +357,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
         Check::truth("mean-stress-rms", "rms of σ_m − reference at most √((h rms|∇σ_m|)² + (0.2 rms σ_m)²)")
             .unless(|c| c.solution().err())
             .unless(|c| c.still_moves())
-            .unless(|c| {
-                let stored = c.solution().is_ok_and(Solution::has_field);
-                (!stored).then(|| "the reference field is stored for ν = 0.499".to_owned())
-            })
+            .except(|c| !c.solution().is_ok_and(Solution::has_field), "the reference field is stored for ν = 0.499")
             .at_most(MEAN_STRESS_RMS_ERROR, |c| c.stress_bound())
             .because_of(|c| {
                 let what = "every point moved by a cell, and the oscillation that smooth-pressure admits";
@@ -370,11 +365,8 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             }),
         Check::truth("smooth-pressure", "h ≤ 1 m: rms(σ_m − Πσ_m) below 0.2 rms σ_m")
             .when(|c| !c.is_noisy())
-            .unless(|c| c.is_beyond().then(|| "beyond ν = 0.499 only noisy-pressure is judged, at h = 1 m".to_owned()))
-            .unless(|c| {
-                let coarse = c.h > RESOLVED;
-                coarse.then(|| "cells above 1 m don't resolve the field: Π changes the exact field too".to_owned())
-            })
+            .except(|c| c.is_beyond(), "beyond ν = 0.499 only noisy-pressure is judged, at h = 1 m")
+            .except(|c| c.h > RESOLVED, "cells above 1 m don't resolve the field: Π changes the exact field too")
             .at_most(CHECKERBOARD_RATIO, |_| SMOOTH)
             .because("a locking-free pressure is smooth on the scale of a cell"),
         Check::known_limit("noisy-pressure", "fbar-total, fbar-rate, fbar-consistent at ν > 0.499 and h = 1: rms(σ_m − Πσ_m) above 0.2 rms σ_m; smooth-pressure is not judged there")
@@ -388,7 +380,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because("averaging a pressure that needs none softens"),
         Check::truth("no-creep", "fbar-total, fbar-rate, fbar-consistent: rms ln(J/J̄) changes by less than 1e-4 per period")
             .when(|c| c.is_explicit() && c.is_free_of_locking())
-            .unless(|c| c.is_compressible().then(|| COMPRESSIBLE.to_owned()))
+            .except(|c| c.is_compressible(), COMPRESSIBLE)
             .at_most(Quantity::abs(CREEP_RATE), |c| CREEP / c.metric(PERIOD))
             .because("an equilibrium does not move"),
         Check::known_limit("creep-grows-as-dt-falls", "fbar-recursive: with half the time step it is at least 1.3 times as fast (diffusion: 2 in the bulk, √2 from a boundary)")

@@ -1,8 +1,7 @@
 //! Columns that another code supplies, and the metrics computed from them.
 
 use super::probes::Probes;
-use super::run::Membrane;
-use super::run::energy_defect;
+use super::run::{Membrane, energy_defect};
 use super::*;
 use crate::foreign::{Asked, Foreign, Gap, Gaps, Given, Group, KINETIC, MEAN_STRESS, Measured, START_X, START_Y};
 use crate::foreign::{STRESS_WORK, start_columns};
@@ -21,8 +20,7 @@ const LOSSES: Asked = Asked::series("damping_losses", "J/m", "what damping has t
 const LOADING: f64 = 0.25;
 
 pub(in crate::cases) fn foreign() -> Foreign {
-    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
-    let of_stress = [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(stresses);
+    let of_stress = [MEAN_STRESS_RMS_ERROR, MEAN_STRESS_RMS].into_iter().chain(names(MEAN_STRESSES));
     let errors = [FEM_MID_EDGE_ERROR, FEM_EDGE_MEAN_ERROR, FEM_TIP_ERROR];
     let of_edge = [MID_EDGE_UY, EDGE_MEAN_UY, TIP_UY, TIP_UY_NEAREST, TIP_UX].into_iter().chain(errors);
     let groups = vec![

@@ -1,6 +1,6 @@
 //! Cook's membrane: nearly incompressible elasticity in bending and shear.
 //!
-//! Section 4.1 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/cook.md`.
+//! Section 4.1 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod figures;
@@ -86,7 +86,7 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let metrics: Vec<Metric> = OWN.iter().copied().chain(MEAN_STRESSES.iter().map(|(metric, _)| *metric)).collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(names(MEAN_STRESSES)).collect();
     let stress = ["mean_stress", "mean normal stress at rest (Pa)"];
     Case::of::<2, run::Membrane>("cook", "Cook's membrane", &metrics)
         .planned(plan())

@@ -18,7 +18,6 @@ pub(super) struct Probes {
 }
 
 impl Probes {
-    /// In particles at `references` (m) on cells of size `h` (m).
     pub(super) fn new(references: Vec<[f64; 2]>, h: f64) -> Result<Self, Error> {
         let at = |[x, y]: [f64; 2]| {
             PointProbe::new(&references, [x, y], 2.0 * h)
@@ -39,11 +38,8 @@ impl Probes {
 
     /// Metrics of displacements along x and y (m).
     pub(super) fn of_displacement(&self, [ux, uy]: [&[f64]; 2], setup: &Setup<Cook>) -> Vec<(Metric, f64)> {
-        let of = |measure| match measure {
-            Measure::MidEdge => self.mid_edge.value(uy),
-            Measure::EdgeMean => self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64,
-            Measure::Tip => self.tip.value(uy),
-        };
+        let edge_mean = self.edge.iter().map(|p| p.value(uy)).sum::<f64>() / EDGE_POINTS as f64;
+        let of = |measure: Measure| measure.of([self.mid_edge.value(uy), edge_mean, self.tip.value(uy)]);
         let mut values = vec![(TIP_UY_NEAREST, uy[self.tip_particle]), (TIP_UX, self.tip.value(ux))];
         for measure in Measure::ALL {
             let [metric, error] = measure.metrics();

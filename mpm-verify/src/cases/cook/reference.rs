@@ -35,12 +35,13 @@ impl Measure {
     pub(super) const ALL: [Self; 3] = [Self::MidEdge, Self::EdgeMean, Self::Tip];
 
     /// Its metric, and that of its relative error.
-    pub(super) const fn metrics(self) -> [Metric; 2] {
-        match self {
-            Self::MidEdge => [MID_EDGE_UY, FEM_MID_EDGE_ERROR],
-            Self::EdgeMean => [EDGE_MEAN_UY, FEM_EDGE_MEAN_ERROR],
-            Self::Tip => [TIP_UY, FEM_TIP_ERROR],
-        }
+    pub(super) fn metrics(self) -> [Metric; 2] {
+        self.of([[MID_EDGE_UY, FEM_MID_EDGE_ERROR], [EDGE_MEAN_UY, FEM_EDGE_MEAN_ERROR], [TIP_UY, FEM_TIP_ERROR]])
+    }
+
+    /// Its own among what belongs to each, in the order of [`Measure::ALL`].
+    pub(super) fn of<T: Copy>(self, each: [T; 3]) -> T {
+        each[self as usize]
     }
 }
 
@@ -65,11 +66,7 @@ pub(super) struct Deflections {
 
 impl Deflections {
     pub(super) fn of(&self, measure: Measure) -> f64 {
-        match measure {
-            Measure::MidEdge => self.mid_edge_uy,
-            Measure::EdgeMean => self.edge_mean_uy,
-            Measure::Tip => self.tip_uy,
-        }
+        measure.of([self.mid_edge_uy, self.edge_mean_uy, self.tip_uy])
     }
 }
 
@@ -112,11 +109,7 @@ pub(super) struct Solution {
 impl Solution {
     /// A displacement (m).
     pub(super) fn of(&self, measure: Measure) -> f64 {
-        match measure {
-            Measure::MidEdge => self.mid_edge.uy,
-            Measure::EdgeMean => self.edge_mean_uy,
-            Measure::Tip => self.tip.uy,
-        }
+        measure.of([self.mid_edge.uy, self.edge_mean_uy, self.tip.uy])
     }
 
     /// Whether the field of mean stress is that of this solution.
@@ -203,7 +196,6 @@ impl Setup<Cook> {
     }
 }
 
-/// The references in words.
 pub(super) fn describe() -> Vec<String> {
     let Ok(document) = document() else { return Vec::new() };
     let mut lines = vec![document.method.clone()];

@@ -26,8 +26,6 @@ const OBSERVATIONS: f64 = 240.0;
 /// Criterion of rest: relative out-of-balance virtual work, kinetic over stored energy, relative
 /// drift of the tip over the window.
 const REST: (f64, f64, f64) = (1e-3, 1e-5, 1e-4);
-/// A smaller error is rounding, which no golden should hold.
-const ROUNDING: f64 = 1e-9;
 /// Parameters of an explicit run only, and of a quasi-static run only.
 const OF_EXPLICIT: [&str; 8] =
     ["load_ramp", "damping", "kinetic_damping", "cfl", "flip", "wall", "max_periods", "rest_window"];
@@ -151,7 +149,6 @@ pub(super) fn energy_defect(kinetic: f64, stress_work: f64, losses: f64, load_wo
 }
 
 impl Membrane {
-    /// The criterion of rest, with its observations so far.
     fn rest(&self, seen: &Seen) -> Result<RestCriterion, Fault> {
         let (force_ratio, energy_ratio, drift) = REST;
         let mut rest = RestCriterion::new(force_ratio, energy_ratio, drift, self.window());

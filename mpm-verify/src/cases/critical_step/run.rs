@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::cases::build::{DENSITY, YOUNG_MODULUS};
-use crate::cases::noise::noise;
 use crate::exact::stable_step::Setting;
 use crate::scheme::Explicit;
 use mpm_core::explicit::Settings;

@@ -9,8 +9,6 @@ const AT_REST: (f64, f64) = (1e-3, 5e-3);
 /// Rms error of the pressure at rest over that at the floor on cells of [`PROFILE_CELL`] (m).
 const PROFILE: f64 = 0.01;
 const PROFILE_CELL: f64 = 0.25;
-/// Rounding of sums over steps and particles.
-const ROUNDING: f64 = 1e-9;
 /// Cells (m) from which on splashes are fine enough to show what coarse cells swallow.
 const FINE: f64 = 0.125;
 /// Cells (m) beyond which they swallow even what `fbar-rate` makes.
@@ -112,7 +110,6 @@ impl Water<'_> {
         self.h + uncertainty()
     }
 
-    /// The reason why the front is not judged.
     fn front_is_open(&self) -> Option<String> {
         if self.metric(FRONT_RMS_ERROR).is_nan() {
             Some("the run ends before the front is near the wall".to_owned())
@@ -142,7 +139,7 @@ impl Water<'_> {
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<DamBreak>;
     type Demand = crate::demand::Demand<DamBreak>;
-    let at_rest = |check: Check| check.unless(|w| w.smooths().then(|| NOT_AT_REST.to_owned()));
+    let at_rest = |check: Check| check.except(|w| w.smooths(), NOT_AT_REST);
     vec![
         Check::bookkeeping("particle-count", "L H / (h/n)² particles at n per direction: the paper's 3,200 at h = 0.25 m and five")
             .within(Quantity::new("particles", |w: &Water| w.record.work.particles as f64), |w| w.particles(), |_| 0.0)
@@ -174,7 +171,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("inviscid front; a grid resolves no tongue thinner than a cell"),
         Check::truth("arrival", "FLIP: arrival at x = 6 m − 2h exact within the time in which the inviscid front crosses a cell")
             .unless(|w| w.front_is_open())
-            .unless(|w| w.metric(ARRIVAL_ERROR).is_nan().then(|| "the front does not come so far by the end: see front".to_owned()))
+            .except(|w| w.metric(ARRIVAL_ERROR).is_nan(), "the front does not come so far by the end: see front")
             .at_most(ARRIVAL_ERROR, |w| {
                 let passes = passage(TANK - 2.0 * w.h);
                 w.front_bound() / passes.map_or(f64::NAN, |(_, speed)| speed)
@@ -205,7 +202,7 @@ pub(super) fn checks() -> Vec<Check> {
             })
             .because("water at rest in the tank has two thirds of its energy"),
         Check::truth("volume", "all: area covered at 0.4 s equal to L H within strips two particles wide")
-            .unless(|w| w.metric(COVERED_EARLY).is_nan().then(|| "the run ends before 0.4 s".to_owned()))
+            .except(|w| w.metric(COVERED_EARLY).is_nan(), "the run ends before 0.4 s")
             .within(COVERED_EARLY, |_| LENGTH * DEPTH, |w| {
                 // Strips are two particles wide and end at the highest particle of the water, whose surface drops by H
                 // in all and whose edge is known to half a particle.
@@ -237,7 +234,6 @@ fn ladders<'a, 'r>(runs: &'a [Water<'r>]) -> Vec<Vec<&'a Water<'r>>> {
     kinds.into_iter().map(|kind| own.iter().filter(|w| (w.scheme, &w.set) == kind).copied().collect()).collect()
 }
 
-/// Whether an error falls from level to level.
 fn falls(runs: &[Water], metric: Metric) -> Vec<Finding> {
     let ladders = ladders(runs);
     let fall = |pair: &[&Water]| {
@@ -292,7 +288,6 @@ fn against_standard(runs: &[Water]) -> Vec<Finding> {
     found.flatten().collect()
 }
 
-/// Effect of the start on the front.
 fn starts(runs: &[Water]) -> Vec<Finding> {
     let staged = |(run, _): &(&Water, &Water)| run.start == Rest::GravityStage;
     let found = from_own(runs, "start").filter(staged).map(|(run, own)| {
@@ -303,7 +298,6 @@ fn starts(runs: &[Water]) -> Vec<Finding> {
     found.collect()
 }
 
-/// Effect of the time step on the front.
 fn time_steps(runs: &[Water]) -> Vec<Finding> {
     let ours = |(run, _): &(&Water, &Water)| run.remedy() == FbarConsistent && run.is_flip();
     let found = from_own(runs, "cfl").filter(ours).map(|(run, own)| {

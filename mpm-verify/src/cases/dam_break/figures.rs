@@ -29,7 +29,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     // The run that changes least comes first.
     records.sort_by_key(|r| r.set.len());
     let mut runs = Exhibit::new(gallery, records);
-    for basis in BASES {
+    for basis in SMOOTH {
         snapshots(&mut runs, basis)?;
         flow(&mut runs, basis)?;
     }

@@ -1,6 +1,6 @@
 //! Two elastic discs that collide: the dynamic case of the implicit paper.
 //!
-//! Section 3.2 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/discs.md`.
+//! Section 3.2 of Wang, Vardon, Hicks & Chen (2016).
 
 mod flight;
 mod run;
@@ -14,8 +14,7 @@ use TransferName::{Apic, Flip, Musl, Xpic2};
 
 /// Roundings of a step's sum of forces, in shares of the discs' momentum.
 const ROUNDINGS: f64 = 16.0;
-/// Largest gain of a rule that conserves energy, and least of one that does not.
-const NO_GAIN: f64 = 1e-4;
+/// Least gain of a rule that does not conserve energy.
 const GAINED: f64 = 1e-3;
 /// Rounding after its growth in the collision.
 const MIRRORED: f64 = 1e-6;
@@ -108,7 +107,7 @@ pub(super) fn case() -> Case {
         .watched(&["energy_change", "distance"])
         .sketch(sketch())
         .cost(|spec| {
-            let steps = Setup::<Discs>::of_plan(spec).map_or(0, |setup| setup.timing().1);
+            let steps = Pair::of_plan(spec).map_or(0, |setup| setup.timing().1);
             let a_step = if matches!(spec.scheme, Scheme::Explicit(_)) { 1e-5 } else { 1e-3 };
             a_step * steps as f64 * (0.05 / spec.level.h).powi(2)
         })
@@ -118,16 +117,14 @@ pub(super) fn case() -> Case {
             Scheme::Explicit(e) if e.basis == Linear && e.transfer == Flip => {
                 Some("a particle that enters a cell meets nodes with hardly any mass, which its stress throws ahead")
             }
-            Scheme::Implicit(_) if number(r, |d| d.lumped) == 0.0 => {
+            Scheme::Implicit(_) if Pair::number_of(r, |d| d.lumped) == 0.0 => {
                 Some("a consistent mass is singular where a function sees few particles")
             }
             _ => None,
         })
 }
 
-fn number(r: &Record, of: fn(&Setup<Discs>) -> f64) -> f64 {
-    Setup::number_of(r, of)
-}
+type Pair = Setup<Discs>;
 
 fn plan() -> Plan {
     let none = RemedyName::None;
@@ -224,7 +221,7 @@ fn checks() -> Vec<Check> {
             .because("internal forces sum to zero, as the functions sum to one"),
         Check::truth("no-energy-gain", "midpoint, β above 0, head on, contact of five steps, not fast or fine linear functions: energy exceeds its start by at most 10⁻⁴")
             .when(|d| d.is_of(Midpoint) && d.is_head_on() && d.lumped > 0.0 && !d.jumps())
-            .unless(|d| (!d.is_resolved()).then(|| "a step takes more than a fifth of the impulse".to_owned()))
+            .except(|d| !d.is_resolved(), "a step takes more than a fifth of the impulse")
             .at_most(ENERGY_GAIN, |_| NO_GAIN)
             .because("a lumped share takes energy, the rule gives none: docs/implicit.md"),
         Check::known_limit("linear-gains", "midpoint with linear functions at h = 0.025 m, 0.005 m/s and 100 times the explicit step, head on: energy exceeds its start by more than 10⁻⁴")
@@ -291,18 +288,18 @@ fn checks() -> Vec<Check> {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const SHARE: Label = ("η", |r| number(r, |d| d.flip).to_string());
+    const SHARE: Label = ("η", |r| Pair::number_of(r, |d| d.flip).to_string());
     const CONTACT: Label = ("contact", |r| word(r, "contact", "grid"));
-    const OFFSET: Label = ("offset (m)", |r| number(r, |d| d.offset).to_string());
-    const LUMPED: Label = ("β", |r| number(r, |d| d.lumped).to_string());
-    const SPEED: Label = ("speed (m/s)", |r| number(r, |d| d.speed).to_string());
-    const STEP: Label = ("Δt / 2.5 ms", |r| number(r, |d| d.step_factor.value()).to_string());
-    let at = |offset: f64| move |r: &Record| number(r, |d| d.offset) == offset;
+    const OFFSET: Label = ("offset (m)", |r| Pair::number_of(r, |d| d.offset).to_string());
+    const LUMPED: Label = ("β", |r| Pair::number_of(r, |d| d.lumped).to_string());
+    const SPEED: Label = ("speed (m/s)", |r| Pair::number_of(r, |d| d.speed).to_string());
+    const STEP: Label = ("Δt / 2.5 ms", |r| Pair::number_of(r, |d| d.step_factor.value()).to_string());
+    let at = |offset: f64| move |r: &Record| Pair::number_of(r, |d| d.offset) == offset;
     let is_explicit = |r: &Record| matches!(r.scheme(), Scheme::Explicit(_)) && r.changes_none_but(&["offset", "flip"]);
     // Energy over the time step.
     let over_steps = |name: &str, offset: f64| {
         let columns = [1.0, 10.0, 100.0].into_iter().flat_map(|factor| {
-            let of = move |r: &Record| number(r, |d| d.step_factor.value()) == factor;
+            let of = move |r: &Record| Pair::number_of(r, |d| d.step_factor.value()) == factor;
             [
                 Column::metric(format!("gain, {factor} Δt"), ENERGY_GAIN, percent(3)).of(of),
                 Column::metric("loss", ENERGY_LOSS, percent(3)).of(of),
@@ -312,7 +309,8 @@ fn tables() -> Vec<ResultTable> {
         ResultTable::new(name, shows, &[SCHEME], columns)
     };
     let long = |r: &Record| {
-        number(r, |d| d.step_factor.value()) == 100.0 && r.changes_none_but(&["step_factor", "offset", "lumped"])
+        Pair::number_of(r, |d| d.step_factor.value()) == 100.0
+            && r.changes_none_but(&["step_factor", "offset", "lumped"])
     };
     let explicit = [0.0, 0.1, 0.2].into_iter().flat_map(|offset| {
         [
@@ -337,7 +335,8 @@ fn tables() -> Vec<ResultTable> {
             .metric("angular momentum off by", ANGULAR_MOMENTUM_ERROR, SHORT)
             .metric("linear momentum off by", MOMENTUM_ERROR, SHORT),
         ResultTable::of("discs-speeds", |r| {
-            let fast = number(r, |d| d.speed) > AT_SPEED || number(r, |d| d.step_factor.value()) == 100.0;
+            let fast =
+                Pair::number_of(r, |d| d.speed) > AT_SPEED || Pair::number_of(r, |d| d.step_factor.value()) == 100.0;
             fast && r.level == "h0.05" && r.changes_none_but(&["speed", "step_factor"])
         })
         .by(&[SCHEME, SPEED, STEP])
@@ -351,7 +350,7 @@ fn tables() -> Vec<ResultTable> {
             .columns(explicit)
             .column(Column::metric("angular momentum off by, 0.1 m", ANGULAR_MOMENTUM_ERROR, SHORT).of(at(0.1))),
         ResultTable::of("discs-passing", |r| {
-            number(r, |d| d.offset) >= 0.4 && r.changes_none_but(&["offset", "contact"])
+            Pair::number_of(r, |d| d.offset) >= 0.4 && r.changes_none_but(&["offset", "contact"])
         })
         .by(&[SCHEME, CONTACT, LEVEL])
         .columns(passing),
@@ -369,7 +368,7 @@ fn energies(gallery: &mut Gallery) -> Result<(), Error> {
     let panel = |factor: f64| {
         let own = move |r: &&Record| {
             let plain = r.status == Status::Ok && r.level == "h0.05" && r.remedy() == RemedyName::None;
-            let steps = number(r, |d| d.step_factor.value()) == factor && r.changes_none_but(&["step_factor"]);
+            let steps = Pair::number_of(r, |d| d.step_factor.value()) == factor && r.changes_none_but(&["step_factor"]);
             plain && steps && is_drawn(r)
         };
         let panel =
@@ -403,12 +402,8 @@ fn contact(gallery: &mut Gallery) -> Result<(), Error> {
             let plain = r.status == Status::Ok && r.changes_none_but(&["step_factor"]);
             plain && r.basis() == basis && r.scheme().solver() == "midpoint"
         };
-        let Some(record) = gallery.records.iter().find(own) else {
-            continue;
-        };
-        let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else {
-            continue;
-        };
+        let Some(record) = gallery.records.iter().find(own) else { continue };
+        let Some(table) = gallery.snapshot(record, IN_CONTACT as f64 * ROW)? else { continue };
         panels.push(field_panel(record, &table, basis.to_string(), "mean_stress"));
     }
     let [[lo, _], [hi, _]] = CENTRES;

@@ -25,9 +25,6 @@ const CROSSINGS: f64 = 5.0;
 const ROW: f64 = 100.0;
 /// The row of the snapshot, when the discs are at rest, pressed together.
 pub(super) const IN_CONTACT: u64 = 95;
-/// Smaller errors are rounding.
-const LEAST: f64 = 1e-12;
-const LEAST_ASYMMETRY: f64 = 1e-9;
 
 impl Setup<Discs> {
     /// Mass (kg/m) of the particles by their shares of a cell.
@@ -315,15 +312,15 @@ impl Problem<2> for Collision {
             (ENERGY_ERROR_ACCUMULATED, seen.accumulated),
             (LUMPING_LOSS, run.totals().accumulated.lumping_loss / (k0 + s0)),
             (NODE_ENERGY_GAP, seen.node_gap),
-            (MOMENTUM_ERROR, seen.momentum.max(LEAST)),
-            (ANGULAR_MOMENTUM_ERROR, seen.angular.max(LEAST)),
+            (MOMENTUM_ERROR, seen.momentum.max(LEAST_ERROR)),
+            (ANGULAR_MOMENTUM_ERROR, seen.angular.max(LEAST_ERROR)),
             (ENERGY_EXCHANGED, seen.exchanged),
             (RESTITUTION, after[0].hypot(after[1]) / closing),
             (DEFLECTION, turned / closing),
             (IMPULSE_OF_A_STEP, seen.kick / turned.max(closing)),
-            (FLIGHT_ERROR, seen.flight[0].max(LEAST)),
-            (FLIGHT_STRAIN, seen.flight[1].max(LEAST)),
-            (ASYMMETRY, self.asymmetry(run).max(LEAST_ASYMMETRY)),
+            (FLIGHT_ERROR, seen.flight[0].max(LEAST_ERROR)),
+            (FLIGHT_STRAIN, seen.flight[1].max(LEAST_ERROR)),
+            (ASYMMETRY, self.asymmetry(run).max(ROUNDING)),
             (CLOSEST, seen.closest),
             (NEWTON_ITERATIONS, work.newton_iterations as f64),
             (MASS, run.totals().mass),

@@ -1,13 +1,9 @@
 //! An elastic block that falls on a floor with friction, at an angle, and bounces.
-//!
-//! Set-up, choices and tolerances: `docs/drop.md`.
 
 mod run;
 
 use crate::cases::prelude::*;
 
-/// Rounding of sums over many steps.
-const ROUNDING: f64 = 1e-9;
 /// Slant above which a block slips all the time, and share of its impulse until the sticks have given way.
 const SLIPS: f64 = 4.0;
 const YIELDS: f64 = 0.02;

@@ -6,17 +6,12 @@ use crate::cases::build::{DENSITY, YOUNG_MODULUS};
 /// Side of the block, and its gap over the reach of the barrier at the start (m).
 const SIDE: f64 = 0.5;
 const CLEAR: f64 = 0.02;
-/// Distance at which the barrier begins, in cells.
-const REACH: f64 = 0.25;
 /// Duration of the run, in times in which waves cross the block and come back, beside the time of its fall and as much to
 /// part.
 const CROSSINGS: f64 = 3.0;
-/// Rows of the series.
 const ROWS: u64 = 100;
 /// Cells beside the block's way and above it.
 const ROOM: f64 = 4.0;
-/// Smaller errors are rounding.
-const LEAST: f64 = 1e-12;
 
 #[derive(Default, Clone, Serialize, Deserialize)]
 pub(super) struct Extremes {
@@ -183,7 +178,7 @@ impl Problem<2> for Falling {
             (STORED_MOST, seen.stored),
             (LEAST_GAP, seen.least_gap),
             (COULOMB_EXCESS, seen.excess / seen.across),
-            (MOMENTUM_ERROR, seen.momentum.max(LEAST)),
+            (MOMENTUM_ERROR, seen.momentum.max(LEAST_ERROR)),
             (RESTITUTION, totals.momentum[1] / totals.mass / fall),
             (SPIN, self.spin(run) / fall),
         ];

@@ -1,6 +1,6 @@
 //! A slope whose toe is cut away: the geotechnical case of the implicit paper.
 //!
-//! Section 3.3 of Wang, Vardon, Hicks & Chen (2016). Set-up, choices and tolerances: `docs/excavation.md`.
+//! Section 3.3 of Wang, Vardon, Hicks & Chen (2016).
 
 mod run;
 mod scene;
@@ -10,16 +10,10 @@ use RuleName::{Midpoint, Newmark, QuasiStatic};
 use scene::{Ground, HEIGHT};
 
 const LEVELS: [Level; 3] = [Level::new("h0.1", 0.1), Level::new("h0.05", 0.05), Level::new("h0.025", 0.025)];
-/// Unit weight over strength (1/m) from which ground splashes, ten times that of the case.
-const SPLASHING: f64 = 40.0;
 /// Newton's tolerance times the root of the number of nodes that its norm is of.
 const EQUILIBRIUM: f64 = 1e-8;
 /// Newton's tolerance times the number of steps and the forces that swing over those that drive.
 const BALANCED: f64 = 1e-6;
-/// Largest gain of a rule that conserves energy.
-const NO_GAIN: f64 = 1e-4;
-/// Rounding of a friction force.
-const ROUNDING: f64 = 1e-9;
 /// Excess of arcs over the collapse load: the gap to finite-element limit analysis.
 const ARCS: f64 = 0.012;
 /// Run-outs of two levels that differ by less are the same.
@@ -100,7 +94,7 @@ pub(super) fn case() -> Case {
         .planned(plan())
         .breaks_down(|r| {
             let slope = Setup::<Excavation>::of_record(r).ok()?;
-            (slope.unit_weight > SPLASHING * slope.peak).then_some("ground of tens of times its strength splashes off the grid")
+            (slope.unit_weight * HEIGHT > SPLASHING * slope.peak).then_some("ground of tens of times its strength splashes off the grid")
         })
         .described("A slope of clay that softens stands under its weight; a wedge at its toe is taken away at once. The geotechnical case \
             of the implicit paper. By limit analysis it stands at the peak strength, whole and cut, and at the residual \
@@ -317,9 +311,8 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     const BEYOND: f64 = 3.5;
     let own = |r: &&Record| r.scheme().rule() == Some(Midpoint) && r.is_default() && r.status == Status::Ok;
     let runs = gallery.records.iter().filter(own);
-    let Some(record) = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h)) else {
-        return Ok(());
-    };
+    let finest = runs.min_by(|a, b| a.discretisation.h.total_cmp(&b.discretisation.h));
+    let Some(record) = finest else { return Ok(()) };
     let slope = Setup::<Excavation>::of_record(record)?;
     let (crest, cut, foot) = (slope.crest, slope.cut, slope.foot());
     let mut tables = Vec::new();

@@ -3,7 +3,6 @@
 use super::scene::{GRAVITATION, HELD_BASE, ROLLERS, Stage};
 use super::*;
 use mpm_core::Reaction;
-use mpm_core::monitor::Convergence;
 
 /// A particle that moves by this share of the height has left with what collapses.
 const COLLAPSES: f64 = 0.1;
@@ -93,13 +92,6 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
-/// Energies of the ground (J/m).
-#[derive(Debug, Default, Clone, Copy, Serialize, Deserialize)]
-struct Energies {
-    stored: f64,
-    dissipated: f64,
-}
-
 #[derive(Debug, Default, Clone, Serialize, Deserialize)]
 pub(super) struct Seen {
     stage: Stage,
@@ -113,10 +105,12 @@ pub(super) struct Seen {
     flowed: Vec<f64>,
     /// Largest displacement (m) in the middle of this stage.
     halfway: f64,
-    energies: Energies,
+    /// Stored and dissipated energy (J/m) at the start of the stage.
+    energies: [f64; 2],
     carried: f64,
     stands: [Option<bool>; 2],
-    uncut: Option<Uncut>,
+    /// Values of [`OF_UNCUT`].
+    uncut: Option<[f64; 6]>,
     friction_ratio: f64,
     flow_least: f64,
     yield_excess: Option<f64>,
@@ -134,23 +128,16 @@ struct Motion {
     work: f64,
 }
 
-#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-struct Uncut {
-    ratios: [f64; 2],
-    reaction_error: f64,
-    side_error: f64,
-    plastic_strain: f64,
-    mass: f64,
-}
+/// Metrics of the whole slope at rest.
+const OF_UNCUT: [Metric; 6] =
+    [FORCE_RATIO_UNCUT, ENERGY_RATIO_UNCUT, REACTION_ERROR, SIDE_ERROR, PLASTIC_STRAIN_UNCUT, MASS];
 
 impl Ground {
-    fn energies(&self, run: &mut dyn Simulation<2>) -> Energies {
+    /// Stored and dissipated energy (J/m).
+    fn energies(&self, run: &mut dyn Simulation<2>) -> [f64; 2] {
         let strain = run.field(Field::PlasticStrain);
         let pairs = strain.iter().zip(&run.particles().reference_volume);
-        Energies {
-            dissipated: pairs.map(|(e, v)| v * self.strength.plastic_work(*e)).sum(),
-            stored: run.totals().stored_energy,
-        }
+        [run.totals().stored_energy, pairs.map(|(e, v)| v * self.strength.plastic_work(*e)).sum()]
     }
 
     fn enter(&self, seen: &mut Seen, phase: &mut Phase<2>, stage: Stage) -> Result<(), Fault> {
@@ -179,30 +166,26 @@ impl Ground {
         seen.start = places(phase.run.as_ref());
     }
 
-    /// Observations of the whole slope at rest.
-    fn uncut(&self, run: &mut dyn Simulation<2>) -> Uncut {
+    /// Values of [`OF_UNCUT`].
+    fn uncut(&self, run: &mut dyn Simulation<2>) -> [f64; 6] {
         let strain = run.field(Field::PlasticStrain);
         let convergence = run.convergence().cloned().unwrap_or_default();
         let weight = self.setup.unit_weight * HEIGHT * (self.setup.crest + 0.5 * HEIGHT);
         let base = self.setup.reaction(run).force;
         let sides = base[0] + run.on(Part::Constraint(ROLLERS)).force[0];
-        Uncut {
-            ratios: [convergence.force_ratio, convergence.energy_ratio],
-            reaction_error: (-base[1] / weight - 1.0).abs(),
-            side_error: sides.abs() / weight,
-            plastic_strain: largest(&strain),
-            mass: run.totals().mass,
-        }
+        let [reaction, sides] = [(-base[1] / weight - 1.0).abs(), sides.abs() / weight];
+        let ratios = (convergence.force_ratio, convergence.energy_ratio);
+        [ratios.0, ratios.1, reaction, sides, largest(&strain), run.totals().mass]
     }
 
     /// Notes the errors of energy and momentum of a row of motion.
     fn note_energy(&self, seen: &mut Seen, run: &mut dyn Simulation<2>) {
         let totals = run.totals();
         let sums = totals.accumulated;
-        let now = self.energies(run);
+        let ([stored, dissipated], [had, lost]) = (self.energies(run), seen.energies);
         let taken = sums.lumping_loss + sums.damping;
         let balance = totals.kinetic_energy + sums.stress_work + taken - sums.load_work;
-        let kept = now.stored - seen.energies.stored + now.dissipated - seen.energies.dissipated;
+        let kept = stored - had + dissipated - lost;
         // The impulse of the weight, less that of the base, is the momentum.
         let given = totals.mass * GRAVITATION * run.time();
         let taken = self.setup.reaction(run).impulse[1];
@@ -254,7 +237,7 @@ impl Problem<2> for Ground {
             self.note_energy(seen, phase.run.as_mut());
         }
         let strain = phase.run.field(Field::PlasticStrain);
-        let dissipated = self.energies(phase.run.as_mut()).dissipated;
+        let [_, dissipated] = self.energies(phase.run.as_mut());
         let run = phase.run.as_ref();
         let flowed = run.particles().seeded(|k| strain[k]);
         seen.flow_least = flowed.iter().zip(&seen.flowed).map(|(a, b)| a - b).fold(seen.flow_least, f64::min);
@@ -266,7 +249,7 @@ impl Problem<2> for Ground {
         if self.setup.slides() && base[1] < 0.0 {
             seen.friction_ratio = seen.friction_ratio.max(base[0].abs() / -base[1]);
         }
-        let convergence: Convergence = run.convergence().cloned().unwrap_or_default();
+        let convergence = run.convergence().cloned().unwrap_or_default();
         let totals = run.totals();
         let clock = if stage.moves() { run.time() } else { 0.0 };
         let gravity = if stage == Stage::Gravity { run.time() } else { 1.0 };
@@ -333,9 +316,8 @@ impl Problem<2> for Ground {
         let (factor_cut, length) = self.setup.factor(cut, peak);
         let truth = |stands: Option<bool>| stands.map_or(f64::NAN, |s| f64::from(u8::from(s)));
         let softened = self.setup.softened(phase.run.as_mut());
-        let now = self.energies(phase.run.as_mut());
+        let [_, dissipated] = self.energies(phase.run.as_mut());
         let run = phase.run.as_ref();
-        let of = |f: fn(&Uncut) -> f64| seen.uncut.as_ref().map_or(f64::NAN, f);
         let work = run.totals().accumulated.load_work;
         let mut values = vec![
             (FACTOR_UNCUT, self.setup.factor(0.0, peak).0),
@@ -344,12 +326,6 @@ impl Problem<2> for Ground {
             (GRAVITY_CARRIED, seen.carried),
             (STANDS_UNCUT, truth(seen.stands[0])),
             (STANDS_CUT, truth(seen.stands[1])),
-            (FORCE_RATIO_UNCUT, of(|u| u.ratios[0])),
-            (ENERGY_RATIO_UNCUT, of(|u| u.ratios[1])),
-            (REACTION_ERROR, of(|u| u.reaction_error)),
-            (SIDE_ERROR, of(|u| u.side_error)),
-            (PLASTIC_STRAIN_UNCUT, of(|u| u.plastic_strain)),
-            (MASS, of(|u| u.mass)),
             (FLOW_LEAST, seen.flow_least),
             (PLASTIC_STRAIN_END, largest(&seen.flowed)),
             (MOVED_CUT, farthest(&seen.start, &places(run))),
@@ -357,6 +333,7 @@ impl Problem<2> for Ground {
             (CREST_DROP, crest_drop(&seen.start, run)),
             (NEWTON_ITERATIONS, phase.work().newton_iterations as f64),
         ];
+        values.extend(OF_UNCUT.into_iter().zip(seen.uncut.unwrap_or([f64::NAN; 6])));
         if softened > 0.0 {
             values.extend([(SOFTENED_END, softened), (BAND_WIDTH, softened / length)]);
         }
@@ -368,11 +345,11 @@ impl Problem<2> for Ground {
             values.push((FRICTION_RATIO, seen.friction_ratio));
         }
         if seen.motion.work > 0.0 {
-            let exchanged = seen.motion.work.max(seen.energies.stored);
+            let exchanged = seen.motion.work.max(seen.energies[0]);
             values.extend([
                 (KINETIC_PEAK, seen.motion.kinetic),
                 (KINETIC_END, run.totals().kinetic_energy / work.abs()),
-                (DISSIPATED, now.dissipated - seen.energies.dissipated),
+                (DISSIPATED, dissipated - seen.energies[1]),
                 (LOAD_WORK, work),
                 (BALANCE_ERROR, seen.motion.balance / exchanged),
                 (MOMENTUM_ERROR, seen.motion.momentum),

@@ -35,7 +35,6 @@ pub(super) enum Stage {
     Cut,
     /// Motion of the cut slope.
     Collapse,
-    /// End.
     Over,
 }
 
@@ -45,7 +44,6 @@ impl Stage {
         matches!(self, Self::Gravity | Self::Settling)
     }
 
-    /// Whether velocities exist.
     pub(super) fn moves(self) -> bool {
         matches!(self, Self::Settling | Self::Collapse)
     }
@@ -138,7 +136,6 @@ impl Setup<Excavation> {
         Ok(RigidContact::new(face, barrier).with_friction(Friction::new(self.friction, barrier.stiffness(gap))?))
     }
 
-    /// Settings of a stage.
     fn stage_settings(&self, stage: Stage) -> Result<Settings, Fault> {
         let (dt, _) = self.timing()?;
         let settings = self.implicit_settings(dt).ok_or(mpm_core::Error::Input {
@@ -176,7 +173,6 @@ pub(super) struct Ground {
 }
 
 impl Ground {
-    /// The ground of a setup.
     pub(super) fn of(setup: Setup<Excavation>) -> Result<Self, Error> {
         let mut foreign = match setup.rule() {
             Some(Midpoint) => vec!["alpha", "delta"],
@@ -228,7 +224,6 @@ impl Ground {
         Ok(particles)
     }
 
-    /// The simulation of a stage at its start.
     pub(super) fn simulation(&self, stage: Stage) -> Begun<2> {
         let setup = &self.setup;
         let (young, ratio) = (setup.young_modulus, setup.poisson_ratio);

@@ -72,7 +72,6 @@ impl Setup<Footing> {
         rings.then(|| format!("waves are {slowness:.1} times slower than where {SLOW} m/s is known to be slow"))
     }
 
-    /// Why a run is shown, and not judged.
     fn shown_only(&self) -> Option<String> {
         let starts = !self.is_implicit() && self.penetration * WIDTH <= 0.5 * self.penetration_rate * self.ramp;
         let dissipates = ![TransferName::Flip, TransferName::None].contains(&self.transfer()) || self.flip < 1.0;
@@ -125,7 +124,6 @@ impl Setup<Footing> {
         self.is_free_of_locking() && self.yields()
     }
 
-    /// Whether standard MPM locks.
     fn locks(&self) -> bool {
         self.remedy() == RemedyName::None && self.yields()
     }
@@ -186,11 +184,10 @@ type Demand = crate::demand::Demand<Footing>;
 pub(super) fn checks() -> Vec<crate::check::Check> {
     vec![
         Check::bookkeeping("particle-count", "57,600 · (h/(B/20))⁻² particles at two per direction, four times as many at four: the paper's 230,400 at B/20")
-            .unless(|c| {
-                let own = c.domain_width == 6 && c.domain_depth == 6;
-                let counted = own && [4, 16].contains(&c.record.discretisation.ppc);
-                (!counted).then(|| "counted for two or four particles per direction in a domain of 6B × 6B only".to_owned())
-            })
+            .except(
+                |c| c.domain_width != 6 || c.domain_depth != 6 || ![4, 16].contains(&c.record.discretisation.ppc),
+                "counted for two or four particles per direction in a domain of 6B × 6B only",
+            )
             .within(
                 Quantity::new("particles", |c| c.record.work.particles as f64),
                 |c| {
@@ -201,7 +198,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             )
             .because("Zhao et al. 2023, section 4.2: 230,400 at B/20 with 4 × 4; 57,600 with 2 × 2"),
         Check::truth("elastic-slope", "all, unreachable strength: d(q/s_u)/d(s/B) that of the finite elements within 2 % at h ≤ B/20, within 4 % at B/10")
-            .unless(|c| (!c.is_elastic()).then(|| "the ground yields: see the runs of great strength".to_owned()))
+            .except(|c| !c.is_elastic(), "the ground yields: see the runs of great strength")
             .unless(|c| c.rings().or_else(|| c.reference_slope().err()))
             .within(ELASTIC_SLOPE, |c| c.elastic_slope(), |c| (FEM * c.coarseness() + c.soft_edge()) * c.elastic_slope())
             .because("finite elements that act as wide"),
@@ -224,7 +221,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             .because("a perfectly plastic body has a limit load"),
         Check::truth("smooth-pressure", "h ≤ B/20: rms(σ_m − Πσ_m) below 0.2 rms σ_m")
             .when(|c| c.yields() && c.no_limit().is_none())
-            .unless(|c| (c.coarseness() > 1.0).then(|| "five cells under half of the footing don't resolve the pressure's edge".to_owned()))
+            .except(|c| c.coarseness() > 1.0, "five cells under half of the footing don't resolve the pressure's edge")
             .at_most(CHECKERBOARD_RATIO, |_| BOARD.0)
             .because("a pressure that is resolved is close to its average"),
         Check::truth("smooth-squares", "rms of σ_m less its plane of best fit in squares of 2h below 0.3 rms σ_m at h ≤ B/20, below 0.5 at B/10")
@@ -241,7 +238,7 @@ pub(super) fn checks() -> Vec<crate::check::Check> {
             }),
         Check::truth("mean-stress", "σ_m at five points that of finite elements of vanishing size within h |∇σ_m|")
             .when(|c| c.yields() && c.no_limit().is_none())
-            .unless(|c| (!c.rough).then(|| "the reference is that of a rough footing".to_owned()))
+            .except(|c| !c.rough, "the reference is that of a rough footing")
             .unless(|c| c.other_points())
             .unless(|c| c.has_room().err())
             .each(MEAN_STRESSES.iter().map(|&(metric, point)| {

@@ -9,7 +9,6 @@ const PLATEAU: f64 = 0.25;
 /// Half of the window of penetration over B in which the curve is averaged.
 pub(super) const WINDOW: f64 = 5e-5;
 
-/// One observation.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Load {
     /// Penetration over B; through a barrier, less how much that gives way in the mean.
@@ -83,7 +82,6 @@ impl LoadCurve<'_> {
         fit_line(&points).map_or(f64::NAN, |line| line.slope)
     }
 
-    /// Metrics of the force on the footing.
     pub(super) fn metrics(&self) -> Vec<(Metric, f64)> {
         let force = self.mean(|r| self.on_plateau(r), |r| r.force);
         let most = self.rows.iter().map(|r| r.force).fold(0.0, f64::max);
@@ -149,7 +147,6 @@ impl Surface {
         mean(beside.map(|(_, rise)| *rise)) / self.sinking()
     }
 
-    /// Metrics of the surface.
     pub(super) fn metrics(&self, rough: bool) -> Vec<(Metric, f64)> {
         vec![(MECHANISM_WIDTH, self.mechanism_width(rough)), (HEAVE, self.heave())]
     }

@@ -3,7 +3,6 @@
 use super::reference::{limit_curve, limit_uncertainty};
 use super::*;
 
-const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Finest first.
 const LEVELS: [&str; 4] = ["b80", "b40", "b20", "b10"];
 /// Largest pressure over strength drawn; and the range about Prandtl's that is drawn larger.
@@ -15,10 +14,8 @@ const NEAR: (f64, f64) = (2.5, 2.0);
 const LEAST_STRESS: f64 = -0.6;
 /// Decimal logarithm of the plastic strains drawn.
 const STRAINS: (f64, f64) = (-5.0, -2.0);
-/// The footing (m).
 const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (0.5, 0.0), (0.5, 0.08), (0.0, 0.08)];
 
-/// Draws all figures that have runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let shorter = |r: &&Record| r.changes_only("penetration");
     let records = own_runs(gallery.records).into_iter();
@@ -28,7 +25,7 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         return Ok(());
     }
     curves(&mut runs)?;
-    for basis in BASES {
+    for basis in SMOOTH {
         mean_stress(&mut runs, basis)?;
         mechanism(&mut runs, basis)?;
     }
@@ -51,9 +48,9 @@ fn load(_: &Record, series: &Table) -> Vec<(f64, f64)> {
 fn curves(runs: &mut Exhibit) -> Result<(), Error> {
     let remedies = [(RemedyName::None, Dash::Dotted), (FbarConsistent, Dash::Solid)];
     // A curve that no basis has needs no entry in the legend.
-    let has = |remedy, level: &str| BASES.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
+    let has = |remedy, level: &str| SMOOTH.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
     let (mut whole, mut by_remedy) = (Vec::new(), Vec::new());
-    for basis in BASES {
+    for basis in SMOOTH {
         let title = basis_title(basis);
         let mut panel = panel_of_loads(title.to_owned());
         for (colour, level) in LEVELS.into_iter().enumerate() {
@@ -125,13 +122,9 @@ fn panel(
 fn mean_stress(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
     let remedies = [RemedyName::None, FbarConsistent];
     let Some(level) = runs.level(basis, &remedies, &LEVELS) else { return Ok(()) };
-    let mut panels = Vec::new();
-    for remedy in remedies {
-        if let Some(record) = runs.find(basis, remedy, level) {
-            let kilopascals = |table: &Table, k: usize| 1e-3 * table.column("mean_stress")[k];
-            panels.push(panel(runs, record, remedy_title(remedy), kilopascals)?);
-        }
-    }
+    let kilopascals = |table: &Table, k: usize| 1e-3 * table.column("mean_stress")[k];
+    let found = remedies.into_iter().filter_map(|remedy| runs.find(basis, remedy, level));
+    let panels = found.map(|r| panel(runs, r, remedy_title(r.remedy()), kilopascals)).collect::<Result<_, Error>>()?;
     let of = basis_title(basis);
     let title = format!("{of}, {}", level_title(level));
     Fields::new(panels, "mean normal stress (kPa)", signed(LEAST_STRESS)).titled(title).draw(
@@ -158,13 +151,9 @@ fn mechanism(runs: &mut Exhibit, basis: BasisName) -> Result<(), Error> {
         &format!("velocity-{basis}"),
         format!("Displacement over the last quarter of the penetration over that of the footing, {remedy}, {of}: a wedge that sinks with the footing, a fan, a wedge that is pushed up, and ground at rest."),
     )?;
-    Fields::new(vec![plastic], "log₁₀ of the equivalent plastic strain", STRAINS)
-        .titled("Where the ground has yielded".to_owned())
-        .draw(
-            runs.gallery,
-            &format!("plastic-strain-{basis}"),
-            format!(
-                "Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide."
-            ),
-        )
+    let caption =
+        format!("Equivalent plastic strain at the end, {remedy}, {of}: the bands along which Prandtl's wedges slide.");
+    let yielded = Fields::new(vec![plastic], "log₁₀ of the equivalent plastic strain", STRAINS);
+    let yielded = yielded.titled("Where the ground has yielded".to_owned());
+    yielded.draw(runs.gallery, &format!("plastic-strain-{basis}"), caption)
 }

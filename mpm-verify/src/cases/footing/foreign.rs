@@ -14,12 +14,12 @@ const FORCE: Asked =
 const BASE: Asked = Asked::series("base_force", "N/m", "downward force of the ground on its base");
 
 pub(in crate::cases) fn foreign() -> Foreign {
-    let curve = CURVE.iter().map(|(metric, _)| *metric);
-    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
-    let of_stress = [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(stresses);
+    let of_stress = [MEAN_STRESS_RMS, OSCILLATION_RATIO].into_iter().chain(names(MEAN_STRESSES));
     let of_load = [NC_B, NC_B_PLUS_H, NC_EFFECTIVE, PRANDTL_ERROR, NC_PEAK, PLATEAU_RISE, ELASTIC_SLOPE];
     let groups = vec![
-        Group::new(&[PENETRATED, FORCE], of_load.into_iter().chain(curve), |given| of_rows(given, |c| c.metrics())),
+        Group::new(&[PENETRATED, FORCE], of_load.into_iter().chain(names(CURVE)), |given| {
+            of_rows(given, |c| c.metrics())
+        }),
         Group::new(&[PENETRATED, FORCE, BASE], [FORCE_IMBALANCE], |given| {
             of_rows(given, |c| vec![(FORCE_IMBALANCE, c.imbalance())])
         }),

@@ -1,6 +1,6 @@
 //! A rigid strip footing on a cohesive, nearly incompressible ground.
 //!
-//! Section 4.2 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/footing.md`.
+//! Section 4.2 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod curve;
@@ -18,7 +18,6 @@ use run::{Pressing, WIDTH};
 const COMPARED: [RemedyName; 4] = [RemedyName::None, FbarRecursive, FbarRate, FbarConsistent];
 
 choices! {
-    /// How the footing presses.
     enum Contact { RigidNodes = "rigid-nodes", Barrier = "barrier" }
 }
 
@@ -26,7 +25,6 @@ const PENETRATION_RATE: Parameter =
     real("m/s", "2e-3", 1e-6, 1.0).named("penetration_rate").meaning("speed of the footing after its start");
 
 parameters! {
-    /// Parameters of the footing.
     struct Footing {
         young_modulus: f64 = common::YOUNG_MODULUS;
         poisson_ratio: f64 = common::POISSON_RATIO;
@@ -96,9 +94,7 @@ metrics! {
 }
 
 pub(super) fn case() -> Case {
-    let curve = CURVE.iter().map(|(metric, _)| *metric);
-    let stresses = MEAN_STRESSES.iter().map(|(metric, _)| *metric);
-    let metrics: Vec<Metric> = OWN.iter().copied().chain(curve).chain(stresses).collect();
+    let metrics: Vec<Metric> = OWN.iter().copied().chain(names(CURVE)).chain(names(MEAN_STRESSES)).collect();
     Case::of::<2, Pressing>("footing", "Strip footing", &metrics)
         .planned(plan())
         .described("A rough rigid strip footing pressed slowly into weightless ground, a Hencky solid with J2 plasticity \

@@ -20,7 +20,6 @@ struct Document {
     extrapolated: Extrapolated,
 }
 
-/// A finite-element solution.
 #[derive(Debug, Deserialize)]
 struct Solution {
     cells: f64,
@@ -47,7 +46,6 @@ struct Slope {
     slope: f64,
 }
 
-/// The limit of vanishing elements.
 #[derive(Debug, Deserialize)]
 struct Extrapolated {
     slope: f64,
@@ -76,11 +74,9 @@ pub(super) struct MeanStress {
 /// Reference curve of a run: pressures over the strength for F/(B/2).
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
-    /// Limit load.
     pub(super) limit: f64,
     /// (s/B, q/s_u).
     points: Vec<(f64, f64)>,
-    /// Name of the curve.
     pub(super) name: String,
 }
 
@@ -124,25 +120,18 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-9 * b.abs()
 }
 
-/// Which elements have a footing that acts as wide as that of a scheme.
-enum Elements {
-    /// Elements of vanishing size.
-    Vanishing,
-    /// As large as the cells.
-    OfCells,
-}
-
 /// The least domain (in B) that leaves Prandtl's mechanism room.
 const ROOM: i32 = 3;
 
 impl Setup<Footing> {
-    fn elements(&self) -> Result<Elements, String> {
+    /// Whether elements of vanishing size have a footing that acts as wide as that of the scheme; if not, those as large as cells.
+    fn is_of_vanishing(&self) -> Result<bool, String> {
         if self.presses_by_barrier() {
             return Err("no elements press through a barrier: see contacts-agree".to_owned());
         }
         match self.effective_width().0 {
-            width if width == WIDTH => Ok(Elements::Vanishing),
-            width if width == WIDTH + self.h => Ok(Elements::OfCells),
+            width if width == WIDTH => Ok(true),
+            width if width == WIDTH + self.h => Ok(false),
             _ => Err("no elements act as wide as splines with nodes on grid lines".to_owned()),
         }
     }
@@ -159,7 +148,7 @@ impl Setup<Footing> {
     pub(super) fn reference_curve(&self) -> Result<Curve, String> {
         let document = document()?;
         self.has_room()?;
-        if let Elements::Vanishing = self.elements()? {
+        if self.is_of_vanishing()? {
             if !self.rough {
                 return Err("the extrapolated reference is that of a rough footing".to_owned());
             }
@@ -218,18 +207,16 @@ impl Setup<Footing> {
                 && close(s.domain, f64::from(self.domain_depth))
         });
         let Some(slopes) = found else { return Err(format!("no slope for ν = {ratio} and this domain")) };
-        let slope = match self.elements()? {
-            Elements::Vanishing => slopes.slope,
-            Elements::OfCells => {
-                let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
-                same.ok_or_else(|| format!("no slope with elements of {h} m"))?.slope
-            }
+        let slope = if self.is_of_vanishing()? {
+            slopes.slope
+        } else {
+            let same = slopes.meshes.iter().find(|s| close(s.cells * h, WIDTH));
+            same.ok_or_else(|| format!("no slope with elements of {h} m"))?.slope
         };
         Ok(slope * strength_ratio())
     }
 }
 
-/// The references in words.
 pub(super) fn describe() -> Vec<String> {
     let mut lines = vec![format!(
         "Prandtl (1920): limit load q = (2 + π) s_u = {EXACT:.4} s_u, exact for a rigid, perfectly plastic half-space"

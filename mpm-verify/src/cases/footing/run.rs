@@ -13,8 +13,6 @@ const ROOM: usize = 3;
 /// Places of constraints in the list of the scene.
 pub(in crate::cases) const BASE: usize = 0;
 pub(in crate::cases) const FOOTING: usize = 3;
-/// Reach d̂ of the barrier over the cell size.
-const REACH: f64 = 0.25;
 /// Penetration over B between two rows of the series.
 const ROW: f64 = 1e-5;
 /// Share of its reach by which the barrier gives way under Prandtl's pressure.
@@ -169,7 +167,6 @@ pub(in crate::cases) fn held_width(basis: BasisName, wall: common::Wall, h: f64)
     }
 }
 
-/// Observations of a footing.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     rows: Vec<Load>,
@@ -189,7 +186,6 @@ impl Seen {
     }
 }
 
-/// A footing that presses.
 pub(super) struct Pressing {
     setup: Setup<Footing>,
     pace: Pace,

@@ -14,8 +14,6 @@ const COARSE: &str = "h0.5";
 const OVERBURDEN: f64 = 0.02;
 /// Cells over the height at which too few carry its modes.
 const FEW: f64 = 0.2;
-/// Rounding of sums over particles.
-const ROUNDING: f64 = 1e-9;
 /// Relative rounding after the steps of the gravity stage: a hundredth of the change by F̄.
 const GROWN_ROUNDING: f64 = 1e-4;
 /// Relative difference of the settlement at rest from plane strain: of F̄, which scales three directions there and two here.
@@ -36,8 +34,6 @@ const LEAKS: &str =
     "`wall-line` splines do not interpolate at the floor, and a particle creeps through it: docs/method.md";
 /// Rms of σ_m − Πσ_m over γ H that locking exceeds.
 const CHECKERBOARD: f64 = 0.05;
-/// γ H over the undrained shear strength from which ground flows like water: as in the case `excavation`.
-const SPLASHING: f64 = 40.0;
 /// Share of the ground that has moved from which on the slope has failed.
 const FAILED: f64 = 0.01;
 
@@ -155,7 +151,6 @@ fn moves_too_fast(c: &Slope, tolerance: f64) -> Option<String> {
     c.never_rests().filter(|_| c.metric(KINETIC_SHARE_AT_REST).sqrt() > 0.5 * tolerance)
 }
 
-/// The checks of both cases.
 pub(super) fn checks() -> Vec<Check> {
     type Check = CheckOf<Landslide>;
     type Demand = crate::demand::Demand<Landslide>;
@@ -178,7 +173,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("weight of the ground"),
         Check::truth("at-rest", "none and fbar-consistent with FLIP and APIC, except slow-motion: kinetic energy of the nodes after the gravity stage below 10⁻⁶ of the stored energy")
             .unless(|c| c.never_rests())
-            .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
+            .except(|c| c.h > FEW * c.height, "fewer than five cells over the height")
             .when(|c| c.remedy() != FbarRecursive && !is_slow(c))
             .at_most(KINETIC_SHARE_AT_REST, |_| AT_REST)
             .because("velocities a thousandth of elastic ones"),
@@ -192,8 +187,8 @@ pub(super) fn checks() -> Vec<Check> {
             .because("seen where the toe has yielded"),
         Check::truth("overburden", "vertical stress far from the face the weight above, rms within 2 % of γ H, or a fifth of a cell's weight")
             .unless(|c| moves_too_fast(c, c.overburden()))
-            .unless(|c| (c.h > FEW * c.height).then(|| "fewer than five cells over the height".to_owned()))
-            .unless(|c| c.feels_the_face().then(|| "the face is felt at the back wall".to_owned()))
+            .except(|c| c.h > FEW * c.height, "fewer than five cells over the height")
+            .except(|c| c.feels_the_face(), "the face is felt at the back wall")
             .at_most(OVERBURDEN_ERROR, |c| c.overburden())
             .because("level ground"),
         Check::known_limit("locked-stress", "none with GIMP: vertical stress beyond overburden's bound, and mean stress alternates between particles by more than 5 % of γ H")
@@ -203,7 +198,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("standard MPM locks: Zhao et al. 2023, Figure 15"),
         // Energy.
         Check::truth("energy-not-gained", "all with FLIP: kinetic and potential energy and stress work never grow")
-            .unless(|c| (c.transfer() != TransferName::Flip).then(|| "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'".to_owned()))
+            .except(|c| c.transfer() != TransferName::Flip, "FLIP alone: APIC's affine motion holds energy that isn't counted, and XPIC moves particles by another velocity than the nodes'")
             .at_most(ENERGY_GAIN, |_| ROUNDING)
             .because("explicit steps with lumped masses take energy from the motion, never give it: docs/dam-break.md"),
         Check::truth("energy-not-made", "fbar-consistent: final kinetic, potential and stored energy and dissipation at most those at the reduction")
@@ -211,9 +206,9 @@ pub(super) fn checks() -> Vec<Check> {
             .at_most(UNACCOUNTED_ENERGY, |_| ROUNDING)
             .because("what is stored and dissipated has fallen before"),
         Check::truth("energy-closure", "failing slopes, runs of 1.5 s and less: kinetic, potential and stored energy and dissipation those at the reduction within h/H of the fallen energy")
-            .unless(|c| (c.duration > EARLY_SLIDE).then(|| "the ground flows: steps lose on the grid, and the share is reported".to_owned()))
-            .unless(|c| c.stands().then(|| "the slope stands: next to nothing falls".to_owned()))
-            .unless(|c| (c.metric(FALLEN_ENERGY) < c.lost_at_once()).then(|| "less has fallen than a strength that falls at once may lose".to_owned()))
+            .except(|c| c.duration > EARLY_SLIDE, "the ground flows: steps lose on the grid, and the share is reported")
+            .except(|c| c.stands(), "the slope stands: next to nothing falls")
+            .except(|c| c.metric(FALLEN_ENERGY) < c.lost_at_once(), "less has fallen than a strength that falls at once may lose")
             .within(
                 Quantity::new(UNACCOUNTED_ENERGY.name, |c: &Slope| c.metric(UNACCOUNTED_ENERGY) / c.metric(FALLEN_ENERGY)),
                 |_| 0.0,
@@ -223,7 +218,7 @@ pub(super) fn checks() -> Vec<Check> {
             .because("a band of cells smears what it shears over its width"),
         // The slide.
         Check::truth("stands", "all, reduction a tenth below the lower bound of limit analysis: less than a hundredth of the ground moves by H/20")
-            .unless(|c| c.bounds().is_none().then(|| "the bounds of limit analysis are those of a face at 45° under a long crest".to_owned()))
+            .except(|c| c.bounds().is_none(), "the bounds of limit analysis are those of a face at 45° under a long crest")
             .when(|c| c.stands())
             .at_most(FAILED_SHARE_END, |_| FAILED)
             .because(LIMIT),
@@ -247,7 +242,7 @@ pub(super) fn checks() -> Vec<Check> {
                     RemedyName::None => GROWN_ROUNDING,
                     _ => OTHER_SCALING,
                 })
-                .unless(|c| (c.remedy() == FbarRecursive).then(|| "it creeps, with either scaling at a pace of its own".to_owned())),
+                .except(|c| c.remedy() == FbarRecursive, "it creeps, with either scaling at a pace of its own"),
                 off(OFF_PLANE_STRAIN_0_5S, |_| GROWN_ROUNDING)
                     .when(|c| c.is_unbroken() && c.remedy() == RemedyName::None),
             ])

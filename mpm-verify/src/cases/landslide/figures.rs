@@ -4,7 +4,6 @@ use super::*;
 use crate::cases::pictures::frames;
 use crate::draw::{SolidFigure, SolidPanel, animate_fields, animate_solids, draw_solids};
 
-const BASES: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies without which there is nothing to compare.
 const COMPARED: [RemedyName; 2] = [RemedyName::None, FbarConsistent];
 /// Least number of frames of an animation: with fewer it is the snapshots alone.
@@ -24,18 +23,15 @@ const OUTLINE: [(f64, f64); 4] = [(0.0, 0.0), (15.0, 0.0), (10.0, 5.0), (0.0, 5.
 
 /// A field of the snapshots: its column, the factor to the unit shown, its range and its label.
 struct Field {
-    name: &'static str,
     column: &'static str,
     factor: f64,
     range: (f64, f64),
     label: &'static str,
-    /// The paper's figure of it.
     figure: &'static str,
 }
 
 const FIELDS: [Field; 2] = [
     Field {
-        name: "plastic-strain",
         column: "plastic_strain",
         factor: 1.0,
         range: (0.0, 2.0),
@@ -43,7 +39,6 @@ const FIELDS: [Field; 2] = [
         figure: "Figure 14",
     },
     Field {
-        name: "mean-stress",
         column: "mean_stress",
         factor: 1e-3,
         range: signed(-120.0),
@@ -79,7 +74,6 @@ impl Shown {
 }
 
 impl<'g> Exhibit<'_, 'g> {
-    /// The runs of all remedies with a basis at a level.
     fn remedies(&self, basis: BasisName, level: &str) -> impl Iterator<Item = &'g Record> {
         REMEDIES.into_iter().filter_map(move |remedy| self.find(basis, remedy, level))
     }
@@ -106,7 +100,6 @@ impl<'g> Exhibit<'_, 'g> {
     }
 }
 
-/// Draws all figures of which there are runs.
 pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
     let own = |r: &&Record| r.is_default() || r.changes_only("duration");
     let records = gallery.records.iter().filter(own);
@@ -116,13 +109,13 @@ pub(super) fn draw(gallery: &mut Gallery) -> Result<(), Error> {
         let by_size = a.discretisation.h.total_cmp(&b.discretisation.h);
         a.set.len().cmp(&b.set.len()).then(by_size)
     });
-    for basis in BASES {
+    for basis in SMOOTH {
         let compared = runs.levels(basis).first().copied();
         // The finest level of all, if other remedies have yet to run on it.
         let ours = |r: &&&Record| r.basis() == basis && r.remedy() == FbarConsistent;
         let finest = runs.records.iter().find(ours).map(|r| &*r.level).filter(|level| Some(*level) != compared);
         for field in &FIELDS {
-            let name = format!("{}-{basis}", field.name);
+            let name = format!("{}-{basis}", field.column.replace('_', "-"));
             if let Some(level) = compared {
                 snapshots(&mut runs, (basis, level), field, &name)?;
             }
@@ -153,16 +146,14 @@ fn snapshots(runs: &mut Exhibit, (basis, level): (BasisName, &str), field: &Fiel
             field.label, field.figure
         )
     };
-    let mut file = format!("{name}.png");
-    let mut place = "";
-    if panels.iter().all(|shown| shown.is_solid()) {
-        draw_solids(&runs.gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
-        runs.gallery.hang(&file, caption(""));
-        (file, place) = (format!("section-{file}"), ", in the middle of the width");
+    let flat = fields(title.clone(), &panels, columns, field);
+    if !panels.iter().all(|shown| shown.is_solid()) {
+        return flat.draw(runs.gallery, name, caption(""));
     }
-    draw_fields(&runs.gallery.place(&file), &fields(title.clone(), &panels, columns, field))?;
-    runs.gallery.hang(&file, caption(place));
-    Ok(())
+    let file = format!("{name}.png");
+    draw_solids(&runs.gallery.place(&file), &solids(title.clone(), &panels, columns, field))?;
+    runs.gallery.hang(&file, caption(""));
+    flat.draw(runs.gallery, &format!("section-{name}"), caption(", in the middle of the width"))
 }
 
 /// Run-out, settlement and kinetic energy against time: remedies at the finest common level, levels of F̄.
@@ -175,7 +166,7 @@ fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
     let levels = crate::distinct(runs.records.iter().map(|r| &*r.level));
     let colour = |r: &Record| levels.iter().position(|level| *level == r.level);
     let mut panels = Vec::new();
-    for basis in BASES {
+    for basis in SMOOTH {
         let Some(level) = runs.levels(basis).first().copied() else { continue };
         let of = basis_title(basis);
         // Since the reduction of the strength.
@@ -225,7 +216,7 @@ fn animation(runs: &mut Exhibit) -> Result<(), Error> {
             let solid = |panels: Vec<&Shown>| solids(String::new(), &panels, 1, field);
             animate_solids(&path, &panels.map(solid).collect::<Vec<_>>(), DELAY)?;
         } else {
-            let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field);
+            let flat = |panels: Vec<&Shown>| fields(String::new(), &panels, 1, field).0;
             animate_fields(&path, &panels.map(flat).collect::<Vec<_>>(), DELAY)?;
         }
         let (level, label) = (level_title(level), field.label);
@@ -243,7 +234,7 @@ fn level_title(level: &str) -> String {
     }
 }
 
-fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> FieldFigure {
+fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fields {
     let panel = |shown: &&Shown| FieldPanel {
         title: shown.title.clone(),
         points: shown.in_the_middle(&shown.particles.points("x", "y")),
@@ -252,7 +243,7 @@ fn fields(title: String, panels: &[&Shown], columns: usize, field: &Field) -> Fi
         outline: OUTLINE.to_vec(),
     };
     let panels = panels.iter().map(panel).collect();
-    Fields::new(panels, field.label, field.range).titled(title).columns(columns).within(WINDOW).0
+    Fields::new(panels, field.label, field.range).titled(title).columns(columns).within(WINDOW)
 }
 
 fn solids(title: String, panels: &[&Shown], columns: usize, field: &Field) -> SolidFigure {

@@ -44,7 +44,6 @@ pub(super) struct State {
 }
 
 impl State {
-    /// The row of the series.
     pub(super) fn row(&self) -> Row {
         row! {
             "time (s)": self.time,

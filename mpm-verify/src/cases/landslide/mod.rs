@@ -1,6 +1,6 @@
 //! Landslides of a slope of soft clay that loses its strength as it flows, in plane strain and in three dimensions.
 //!
-//! Section 4.4 of Zhao, Jiang & Choo (2023). Set-up, choices and tolerances: `docs/landslide.md`.
+//! Section 4.4 of Zhao, Jiang & Choo (2023).
 
 mod checks;
 mod figures;
@@ -24,7 +24,6 @@ const REDUCTION: Parameter = real("-", "1.65", 1.0, 100.0)
     .meaning("factor by which the peak strength is divided after the gravity stage");
 
 parameters! {
-    /// Parameters of the landslide.
     struct Landslide {
         young_modulus: f64 = slope::YOUNG_MODULUS;
         poisson_ratio: f64 = slope::POISSON_RATIO;
@@ -95,7 +94,6 @@ fn cost(spec: &RunSpec, dimension: i32) -> f64 {
     across * sweep / spec.level.h.powi(dimension + 1) / if short { 3.0 } else { 1.0 }
 }
 
-/// A case of the slope.
 fn case_of(
     [name, title, description, size]: [&'static str; 4],
     dimension: i32,
@@ -136,7 +134,6 @@ fn case_of(
         .breaks_down(checks::breaks_down)
 }
 
-/// The landslide in plane strain.
 pub(super) fn plane_case() -> Case {
     const TEXTS: [&str; 4] = [
         "landslide-2d",
@@ -155,7 +152,6 @@ pub(super) fn plane_case() -> Case {
         .tables(tables::in_plane())
 }
 
-/// The landslide in three dimensions.
 pub(super) fn case() -> Case {
     const TEXTS: [&str; 4] = [
         "landslide",

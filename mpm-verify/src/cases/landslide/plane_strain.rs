@@ -17,7 +17,6 @@ pub(super) struct Beside {
 }
 
 impl Beside {
-    /// Both at their start.
     pub(super) fn new(spec: &RunSpec, values: &Parameters) -> Result<Self, Error> {
         let setup = Setup::<Landslide>::of_spec(spec, values)?;
         let slide = Driver::new(Slide::new(setup.clone())?)?;

@@ -19,19 +19,8 @@ const ANIMATED: usize = 20_000;
 const EARLY: f64 = 0.5;
 const FLOWING: f64 = 2.5;
 
-/// Observations at the end of the gravity stage.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-struct AtRest {
-    state: State,
-    /// Nodal kinetic energy over stored energy.
-    kinetic_share: f64,
-    /// Rms of σ_m − Πσ_m over γ H.
-    checkerboard: f64,
-    /// Share of the section that has yielded.
-    yielded: f64,
-    /// Spread of the displacements over the width.
-    width_spread: f64,
-}
+/// What is measured at the end of the gravity stage.
+const AT_REST: [Metric; 4] = [KINETIC_SHARE_AT_REST, CHECKERBOARD_AT_REST, YIELDED_AT_REST, WIDTH_SPREAD_AT_REST];
 
 /// Sums up to the moment when the current strength began to hold.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -46,13 +35,14 @@ struct Before {
     plastic_strain: Vec<f64>,
 }
 
-/// Observations of a slide.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// Factor by which the peak has been divided; none under rising gravity.
     reduction: Option<f64>,
     before: Before,
-    at_rest: AtRest,
+    /// The end of the gravity stage, and the values of [`AT_REST`].
+    rest: State,
+    at_rest: [f64; 4],
     /// Places (m) in the section and vertical stresses (Pa) when the strength is reduced, in seeding order.
     released: Vec<[f64; 2]>,
     stress: Vec<f64>,
@@ -67,7 +57,7 @@ impl Seen {
     pub(super) fn settlements(&self) -> [f64; 2] {
         let early = self.series.at(EARLY);
         let early = early.map_or(f64::NAN, |state| state.settlement);
-        [self.at_rest.state.settlement, early]
+        [self.rest.settlement, early]
     }
 }
 
@@ -111,7 +101,7 @@ impl<const D: usize> Slide<D> {
         seen.released = positions(phase.run.as_ref());
         self.reduce(seen, phase)?;
         // Sums begin anew here.
-        seen.at_rest.state.stress_work = 0.0;
+        seen.rest.stress_work = 0.0;
         (seen.before.time, seen.before.steps, seen.before.stress_work) = (0.0, 0, 0.0);
         Ok(())
     }
@@ -133,7 +123,6 @@ impl<const D: usize> Slide<D> {
         phase.enter(self.begin(seen)?, Some(&body))
     }
 
-    /// The strength that holds now.
     fn strength(&self, seen: &Seen) -> Result<Strength, Fault> {
         self.setup.strength(seen.reduction.unwrap_or(1.0))
     }
@@ -220,13 +209,12 @@ impl<const D: usize> Slide<D> {
         seen.stress = run.particles().seeded(|k| stress[k].get(1, 1));
         let strain = plastic_strain(run);
         let yielded = strain.iter().filter(|e| **e > 0.0).count();
-        seen.at_rest = AtRest {
-            state: seen.at_rest.state,
-            kinetic_share: run.residual().kinetic_energy / run.totals().stored_energy,
-            checkerboard: self.checkerboard(run),
-            yielded: yielded as f64 / strain.len() as f64,
-            width_spread: spread_over_width(&moved(run), self.ground.across),
-        };
+        seen.at_rest = [
+            run.residual().kinetic_energy / run.totals().stored_energy,
+            self.checkerboard(run),
+            yielded as f64 / strain.len() as f64,
+            spread_over_width(&moved(run), self.ground.across),
+        ];
     }
 }
 
@@ -261,7 +249,6 @@ fn since_release(before: &Before, error: Fault) -> Fault {
     }
 }
 
-/// Plastic strain and mean stress.
 fn fields<const D: usize>(columns: Columns<D>) -> Columns<D> {
     columns.field("plastic_strain", "-", Field::PlasticStrain).field("mean_stress", "Pa", Field::MeanStress)
 }
@@ -312,7 +299,7 @@ impl<const D: usize> Problem<D> for Slide<D> {
         state.base_force = -(base(phase) - before) / ROW / self.ground.width;
         if seen.reduction.is_none() {
             state.time -= STAGE;
-            seen.at_rest.state = state;
+            seen.rest = state;
             if state.time > -0.5 * ROW {
                 self.release(seen, phase)?;
             }
@@ -352,30 +339,25 @@ impl<const D: usize> Problem<D> for Slide<D> {
 
     fn metrics(&self, seen: &Seen, phase: &mut Phase<D>) -> Vec<(Metric, f64)> {
         let run = phase.run.as_mut();
-        let (rest, totals) = (&seen.at_rest, run.totals());
+        let (rest, totals) = (&seen.rest, run.totals());
         let (positions, plastic_strain) = (positions(run), plastic_strain(run));
         let bands = self.look(&positions, &plastic_strain).bands();
-        let mut values = seen.series.metrics(&self.ground.slope.section, &rest.state);
+        let mut values = seen.series.metrics(&self.ground.slope.section, rest);
         let rearmost = bands.into_iter().fold(f64::NAN, f64::max);
         values.extend([
             (REARMOST_BAND_END, rearmost),
             (PARTICLES, self.reference.len() as f64),
             (PARTICLES_ACROSS, self.ground.across as f64),
             (MASS, totals.mass / self.ground.width),
-            self.base_reaction(&rest.state, totals.mass),
-            (KINETIC_SHARE_AT_REST, rest.kinetic_share),
+            self.base_reaction(rest, totals.mass),
             (OVERBURDEN_ERROR, self.overburden_error(&self.reference, &seen.stress)),
-            (CHECKERBOARD_AT_REST, rest.checkerboard),
             (CHECKERBOARD_2_5S, seen.checkerboard),
-            (YIELDED_AT_REST, rest.yielded),
         ]);
+        let known = if D == 3 { 4 } else { 3 };
+        values.extend(AT_REST.into_iter().zip(seen.at_rest).take(known));
         if D == 3 {
             let end = spread_over_width(&moved(run), self.ground.across);
-            values.extend([
-                (WIDTH_SPREAD_AT_REST, rest.width_spread),
-                (WIDTH_SPREAD_0_5S, seen.early_spread),
-                (WIDTH_SPREAD_END, end),
-            ]);
+            values.extend([(WIDTH_SPREAD_0_5S, seen.early_spread), (WIDTH_SPREAD_END, end)]);
         }
         values
     }

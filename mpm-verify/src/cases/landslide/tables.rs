@@ -7,14 +7,9 @@ const LEVEL: Label = ("level", |r| {
     format!("{level} m")
 });
 
-/// The tables in plane strain.
 pub(super) fn in_plane() -> Vec<ResultTable> {
     let toe = |r: &Record| fixed(2).unit(" m").text(r.metric(RUNOUT_2_5S));
     let is_main = |r: &Record| is_flip(r) && r.is_default() && r.level == "h0.1";
-    let range = |r: &Record| {
-        let [least, most] = [JACOBIAN_MIN, JACOBIAN_MAX].map(|j| fixed(2).text(r.metric(j)));
-        format!("{least} … {most}")
-    };
     vec![
         ResultTable::by_remedy("landslide", &REMEDIES, is_main, runout),
         ResultTable::of("landslide-2d", |r| r.is_default() && is_flip(r) && r.status == Status::Ok)
@@ -29,7 +24,7 @@ pub(super) fn in_plane() -> Vec<ResultTable> {
             .text("bands (rearmost, m)", bands)
             .metric("σ_m − Πσ_m at rest (γH)", CHECKERBOARD_AT_REST, fixed(3))
             .metric("at 2.5 s", CHECKERBOARD_2_5S, fixed(3))
-            .text("J", range)
+            .text("J", |r| range(r, [JACOBIAN_MIN, JACOBIAN_MAX]))
             .metric("ln(J/J̄) rms", LOG_JACOBIAN_GAP, fixed(2))
             .value("lost", lost, share(0))
             .cpu(),
@@ -56,7 +51,6 @@ fn lost(r: &Record) -> f64 {
     }
 }
 
-/// Shear bands, and where the rearmost is.
 fn bands(r: &Record) -> String {
     let count = fixed(0).text(r.metric(SHEAR_BANDS_END));
     match r.metric(REARMOST_BAND_END) {
@@ -88,7 +82,6 @@ fn studies() -> ResultTable {
         .columns(SETS.map(|(title, set)| Column::text(title, text).of(move |r| r.set == set)))
 }
 
-/// The table in three dimensions.
 pub(super) fn in_space() -> ResultTable {
     let spread = scientific(0);
     ResultTable::of("landslide-3d", |r| r.status == Status::Ok)

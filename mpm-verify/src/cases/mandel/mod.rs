@@ -1,11 +1,11 @@
 //! Consolidation of a slab between rigid plates at small strain: nodes that move as one, water and solid in two dimensions,
 //! and the pressure that rises before it falls.
 //!
-//! Mandel 1953, doi:10.1680/geot.1953.3.7.287. Set-up, choices and tolerances: `docs/mandel.md`.
+//! Mandel 1953, doi:10.1680/geot.1953.3.7.287.
 
 mod run;
 
-use super::poro::{self, ROUNDING, spaces};
+use super::poro::{self, spaces};
 use crate::cases::prelude::*;
 use run::{END, HEIGHT, WIDTH};
 
@@ -66,8 +66,7 @@ pub(super) fn case() -> Case {
         .quantity(error(CENTRE_PRESSURE_ERROR_SPACE, "error of p in the middle, of space"))
         .quantity(error(CENTRE_PRESSURE_ERROR, "error of p in the middle"))
         .watched(&["centre_pressure", "settlement"])
-        .sketch(Sketch::of("A quarter of a slab between rigid plates, drained at its side.")
-            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.25], [0.0, 0.25]])
+        .sketch(Sketch::block("A quarter of a slab between rigid plates, drained at its side.", [1.0, 0.25])
             .held([0.0, 0.0], [1.0, 0.0])
             .held([0.0, 0.0], [0.0, 0.25])
             .length([0.0, -0.12], [1.0, -0.12], "a = 1 m")
@@ -95,7 +94,6 @@ fn plan() -> Plan {
         .each(Nightly, "n16", &both, RATIOS)
 }
 
-/// The bounds are derived in `docs/mandel.md`.
 fn checks() -> Vec<Check> {
     type Check = CheckOf<Mandel>;
     const SERIES_AND_EQUATIONS: &str = "Mandel's series, and what cells and steps make of it";

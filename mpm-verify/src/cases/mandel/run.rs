@@ -1,7 +1,7 @@
 //! Derived quantities, scene and observations of the slab.
 
 use super::*;
-use crate::cases::poro::{above_rounding, mass_error, matrix_entries, outflow};
+use crate::cases::poro::{PER_CELL, above_rounding, mass_error, matrix_entries, outflow};
 use crate::exact::mandel::{self as exact, Cells, Slab, of_particles};
 use mpm_core::poro::{Plate, Settings};
 
@@ -12,8 +12,6 @@ pub(super) const HEIGHT: f64 = 0.25;
 pub(super) const END: f64 = 0.3;
 /// T from which on errors are measured: a first step is still far from any exact solution.
 const FROM: f64 = 0.01;
-/// Particles a cell along an axis.
-const PER_CELL: usize = 2;
 /// Empty cells beside and above it: of eight cells of the displacement an axis has four of the pressure, the fewest.
 const ROOM: [usize; 2] = [2, 6];
 /// Largest F/(G a): the finite part of the strain adds at most ten times as much, a percent, to a distance.
@@ -118,7 +116,6 @@ pub(super) struct Seen {
     peak: (f64, f64),
 }
 
-/// A slab that consolidates, and its exact solutions.
 pub(super) struct Consolidation {
     setup: Setup<Mandel>,
     exact: exact::Mandel,

@@ -15,14 +15,11 @@ use super::metrics::{BODY_MASS, DISPLACEMENT_L2, DISPLACEMENT_SCALE, MASS, STRES
 use crate::cases::parameters::{DENSITY, POISSON_RATIO, YOUNG_MODULUS};
 use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
-use claims::{FORMAL, STALLED};
+use claims::STALLED;
 
 /// A check of a run whose parameters are read by name.
 pub(in crate::cases) type Gate = CheckOf<()>;
 
-/// Largest relative error of a squared frequency over (kh)², quadratic splines with fbar-rate where all of
-/// the stress is averaged, rounded up: docs/remedy.md.
-const DISPERSION: f64 = 0.8;
 /// Roundings in the mass of a particle.
 const ROUNDINGS: f64 = 10.0;
 
@@ -162,9 +159,7 @@ pub(in crate::cases) fn moves(p: &Parameters) -> bool {
 pub(in crate::cases) fn rests(statement: &'static str, bound: impl Fn(&Run<()>) -> f64 + Held) -> Check {
     Gate::truth("rests", statement)
         .when(|r| !moves(&r.values))
-        .unless(|r| {
-            (r.remedy() == FbarRecursive).then(|| "Eq. (26) diffuses J̄: a pressure that varies relaxes".to_owned())
-        })
+        .except(|r| r.remedy() == FbarRecursive, "Eq. (26) diffuses J̄: a pressure that varies relaxes")
         .at_most(DISPLACEMENT_L2, bound)
         .because("the exact solution is a state of rest")
 }
@@ -215,7 +210,6 @@ impl Ladder {
     }
 }
 
-/// Findings on every ladder of some metrics, each with its claims.
 fn on_ladders(check: Gate, of: &[(Metric, Claims)], found: fn(&str, &Ladder) -> Option<Finding>) -> Check {
     let of = of.to_vec();
     let study = move |records: &[Record]| {

@@ -1,13 +1,10 @@
 //! Problems whose exact solution is known: what each of them says of its motion, and one simulation for all.
-//!
-//! Choices, gates and tolerances: `docs/manufactured.md`.
 
 pub(super) mod checks;
 pub(super) mod errors;
 pub(super) mod foreign;
 mod metrics;
 mod motion;
-mod pictures;
 mod scenario;
 mod sketch;
 pub(super) mod tables;
@@ -22,20 +19,16 @@ pub(super) use crate::exact::common::{AMPLITUDE, ANGULAR_FREQUENCY, GRAVITY};
 pub(super) use checks::*;
 pub(super) use metrics::*;
 pub(super) use motion::Motion;
-pub(super) use pictures::mean_stress;
 pub(super) use scenario::{Scenario, forcing, vector};
 use std::marker::PhantomData;
+pub(super) use tables::mean_stress;
 
-/// Makes an exact solution.
 pub(super) type Solution = fn(&Parameters) -> Result<Box<dyn Exact>, exact::Error>;
 
-/// Bases whose functions are smooth enough for particles that cross cells.
-pub(super) const SMOOTH: [BasisName; 2] = [Gimp, Bspline2];
 /// Remedies that are compared: without, by rates, and ours.
 pub(super) const COMPARED: [RemedyName; 3] = [RemedyName::None, FbarRate, FbarConsistent];
 /// More particles than the cases' own two per direction.
 pub(super) const MORE: [&str; 2] = ["ppc_per_direction=3", "ppc_per_direction=4"];
-/// Levels of plans.
 pub(super) const THREE: &str = "n8 n16 n32";
 pub(super) const FOUR: &str = "n8 n16 n32 n64";
 pub(super) const FIVE: &str = "n8 n16 n32 n64 n128";
@@ -66,7 +59,6 @@ pub(super) trait Known: Send + Sync + 'static {
     /// Parts of its parameters; nothing if it makes the list by itself.
     const PARAMETERS: Composed = (&[], &[], "", &[]);
 
-    /// All parameters.
     fn parameters() -> Vec<Parameter> {
         all_parameters(Self::PARAMETERS)
     }
@@ -156,7 +148,6 @@ fn all_parameters((of_solution, defaults, duration, own): Composed) -> Vec<Param
     all
 }
 
-/// Sets the defaults of some of the parameters.
 pub(super) fn set_defaults(all: &mut [Parameter], defaults: &[(Parameter, &'static str)]) {
     for p in all {
         if let Some((_, default)) = defaults.iter().find(|(known, _)| known.name == p.name) {

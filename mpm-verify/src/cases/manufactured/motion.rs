@@ -40,7 +40,6 @@ pub(super) struct Sample {
     pub(super) mode: f64,
 }
 
-/// The largest kinetic energy.
 fn peak(rows: &[Sample]) -> f64 {
     rows.iter().map(|r| r.kinetic).fold(0.0, f64::max)
 }

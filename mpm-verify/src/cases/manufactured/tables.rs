@@ -1,19 +1,14 @@
-//! Tables of errors and orders that several motions show.
+//! Tables of errors and orders, and a picture, that several motions show.
 
-use super::CFL;
 use super::metrics::{DISPLACEMENT_L2, DISPLACEMENT_LINF, DISPLACEMENT_SCALE, MEAN_STRESS_L2, STRESS_L2, VELOCITY_L2};
+use super::{CFL, COMPARED};
 use crate::cases::prelude::*;
 
 /// Title of a column, level of its run, and changed parameters, apart by spaces.
 type At = (&'static str, &'static str, &'static str);
 
-/// Whether a run changes these parameters, as `name=value` apart by spaces.
-pub(in crate::cases) fn changes(r: &Record, set: &str) -> bool {
-    r.set.join(" ") == set
-}
-
 fn is_at(r: &Record, (_, level, set): At) -> bool {
-    r.level == level && changes(r, set)
+    r.level == level && r.changes(set)
 }
 
 /// Error of u over the motion.
@@ -118,7 +113,7 @@ pub(in crate::cases) fn price<const N: usize>(name: &str, levels: [&'static str;
     };
     let shows = move |r: &Record| {
         let compared = [RemedyName::None, FbarRate, FbarConsistent];
-        is_flip(r) && changes(r, set) && compared.contains(&r.remedy())
+        is_flip(r) && r.changes(set) && compared.contains(&r.remedy())
     };
     ResultTable::new(name, shows, &[SCHEME], levels.into_iter().flat_map(of_level))
 }
@@ -135,4 +130,19 @@ pub(in crate::cases) fn cost(name: &str, levels: [&'static str; 3], shows: fn(&R
     };
     let cfl: Label = ("CFL", |r| r.parameters.text(CFL));
     ResultTable::new(name, shows, &[SCHEME, cfl], levels.into_iter().flat_map(of_level))
+}
+
+/// Mean stress at the end of runs of one level in the plane, on a scale of ± `most` (Pa): standard, by rates, and ours.
+pub(in crate::cases) fn mean_stress(gallery: &mut Gallery, level: &str, most: f64) -> Result<(), Error> {
+    let mut panels = Vec::new();
+    for scheme in pairs(&SMOOTH, &COMPARED) {
+        let run = gallery
+            .records
+            .iter()
+            .find(|r| r.level == level && r.is_default() && r.scheme() == scheme && r.status == Status::Ok);
+        let Some(run) = run else { continue };
+        panels.push(field_panel(run, &gallery.table(run, "particles.csv")?, scheme.title(), "mean_stress"));
+    }
+    let caption = format!("Mean stress of the particles at the end, at level {level}.");
+    Fields::new(panels, "mean stress (Pa)", (-most, most)).columns(3).draw(gallery, "mean-stress", caption)
 }

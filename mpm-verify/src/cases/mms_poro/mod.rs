@@ -1,6 +1,4 @@
 //! Solid and water at finite strain whose motion and pressure are known: the solver of both against an exact solution.
-//!
-//! Set-up, choices and tolerances: `docs/mms-poro.md`.
 
 mod checks;
 mod run;
@@ -86,16 +84,12 @@ pub(super) fn case() -> Case {
         .quantity(error(PRESSURE_L2, "rms error of p").of_order(2.0))
         .quantity(error(STRESS_L2, "rms error of σ′ (Pa)").of_order(1.0))
         .watched(&["displacement_l2", "pressure_l2"])
-        .sketch(Sketch::of("A body full of water that slides along its sides but doesn't leave them, drained at its top.")
-            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .sketch(Sketch::block("A body full of water that slides along its sides but doesn't leave them, drained at its top.", [1.0, 1.0])
             .held_along(&[[1.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
             .length([0.0, -0.15], [1.0, -0.15], "1 m")
             .note([0.5, 1.12], "p = 0"))
         .cost(|spec| 1e-4 * spec.level.h.powi(-3))
-        .begun(|spec, parameters| match Motion::read(parameters)?.dimension {
-            1 => crate::problem::begin::<1, Moving>(spec, parameters),
-            _ => crate::problem::begin::<2, Moving>(spec, parameters),
-        })
+        .begun(problem::begin_in::<1, 2, Moving>)
         .tables(tables())
 }
 
@@ -128,8 +122,7 @@ fn tables() -> Vec<ResultTable> {
     // Errors of u and p over the cells.
     let cells = |name: &str, set: &'static str, levels: usize| {
         let columns = [errors(DISPLACEMENT_L2, "u", levels), errors(PRESSURE_L2, "p", levels)];
-        let shows = move |r: &Record| r.set.iter().map(String::as_str).eq(set.split_whitespace());
-        ResultTable::new(name, shows, &[SCHEME], columns.into_iter().flatten())
+        ResultTable::new(name, move |r| r.changes(set), &[SCHEME], columns.into_iter().flatten())
     };
     let counts = [4.0, 8.0, 16.0].map(|count| (count, format!("{count} steps")));
     let steps = |r: &Record| Setup::<Motion>::number_of(r, |m| f64::from(m.steps));

@@ -1,6 +1,4 @@
 //! A vortex in a box so slow that it is always in equilibrium: the quasi-static solver against an exact solution.
-//!
-//! Set-up, choices and tolerances: `docs/mms-static.md`.
 
 mod run;
 
@@ -102,7 +100,7 @@ fn over_cells(name: &str, set: &'static str) -> ResultTable {
     let error = |level| Column::value(format!("error of u, {level}"), tables::relative_error, share(2)).at(level);
     let titled = levels.map(|level| (level, format!("of σ_m (Pa), {level}")));
     let columns = levels.map(error).into_iter().chain(Column::levels(titled, MEAN_STRESS_L2, SHORT));
-    ResultTable::new(name, move |r| tables::changes(r, set), &[SCHEME], columns)
+    ResultTable::new(name, move |r| r.changes(set), &[SCHEME], columns)
 }
 
 /// A number at n16 over Poisson's ratios.

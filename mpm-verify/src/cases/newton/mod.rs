@@ -1,7 +1,5 @@
 //! Load steps far too large, a softening body, a floor that is hardly touched: the implicit solver finds the exact
 //! equilibrium, or reports that it finds none.
-//!
-//! Set-up, choices and tolerances: `docs/newton.md`.
 
 mod run;
 

@@ -11,8 +11,7 @@ const HEIGHT: f64 = 1.0;
 const ACROSS: usize = 4;
 /// Place among the constraints of what holds the upper end.
 const UPPER_END: usize = 2;
-/// Distance at which the barrier begins, in cells, and the share of it at which it carries the weight.
-const REACH: f64 = 0.25;
+/// Share of the barrier's distance at which it carries the weight.
 const CARRIES: f64 = 0.5;
 
 /// Observations: whether a step found no equilibrium, and the most parts of a step.
@@ -193,9 +192,8 @@ impl Problem<2> for Loaded {
         if seen.stopped { 1.0 } else { share }
     }
 
-    fn particles<'a>(&self, _: &Found, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        let stress = columns.run().force_stress();
-        columns.each("stress_yy", "Pa", |_, k| stress[k].get(1, 1))
+    fn particles<'a>(&self, _: &Found, columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        columns.stress("stress_yy", [1, 1])
     }
 
     fn metrics(&self, seen: &Found, phase: &mut Phase<2>) -> Vec<(Metric, f64)> {

@@ -1,6 +1,4 @@
 //! A bar that runs into a wall: the front behind which it rests, against Rankine and Hugoniot's conditions.
-//!
-//! Set-up, choices and tolerances: `docs/shock.md`.
 
 mod jump;
 mod run;
@@ -151,7 +149,7 @@ fn checks() -> Vec<Check> {
     // Half of the viscosity's front stays clear of the particles that are looked at behind it.
     let is_wide = |r: &Run<Shock>| r.metric(PREDICTED_WIDTH) > 2.0 * (1.0 - run::BEHIND[1]) * WAY;
     let wide = "the front is as wide as what is behind it";
-    let narrow = |check: Check| check.unless(move |r| is_wide(r).then(|| wide.to_owned()));
+    let narrow = |check: Check| check.except(is_wide, wide);
     let exact = |check: Check, metric| {
         narrow(check).within(metric, |_| 0.0, |r| 2.0 * r.bound()).of_scale(|_| 1.0).because(JUMPS)
     };

@@ -11,7 +11,6 @@ pub(super) const WAY: f64 = 0.7;
 pub(super) const BEHIND: [f64; 2] = [0.1, 0.8];
 /// Shares of the jump that bound the width of a front.
 const FRONT: [f64; 2] = [0.05, 0.95];
-/// Rows of the series.
 const ROWS: u64 = 100;
 /// Cells beyond the bar.
 const ROOM: usize = 2;
@@ -136,9 +135,8 @@ impl Problem<1> for Bar {
         phase.share_of(self.steps)
     }
 
-    fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 1>) -> Columns<'a, 1> {
-        let stress = columns.run().force_stress();
-        columns.velocities().each("stress_xx", "Pa", |_, k| stress[k].get(0, 0)).jacobian()
+    fn particles<'a>(&self, _: &Rows, columns: Columns<'a, 1>) -> Columns<'a, 1> {
+        columns.velocities().stress("stress_xx", [0, 0]).jacobian()
     }
 
     fn metrics(&self, seen: &Rows, phase: &mut Phase<1>) -> Vec<(Metric, f64)> {

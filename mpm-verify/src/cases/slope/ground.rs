@@ -77,7 +77,6 @@ pub(in crate::cases) struct Ground<const D: usize> {
 }
 
 impl<const D: usize> Ground<D> {
-    /// The ground of a setup, of this width (m).
     pub(in crate::cases) fn new<P: ParameterSet>(setup: &Setup<P>, width: f64) -> Result<Self, Fault> {
         let (slope, h) = (setup.slope(), setup.h);
         let number = |p| setup.number(p);

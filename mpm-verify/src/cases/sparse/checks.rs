@@ -3,15 +3,11 @@
 use super::*;
 use crate::cases::manufactured::checks::VORTEX;
 
-/// Formal order of functions that reproduce linear fields.
-const FORMAL: f64 = 2.0;
 /// Order of a noise of the strain that stays as cells shrink.
 const OF_NOISE: f64 = 1.0;
 /// Relative error of what is linear in the noise: twice the softening of the cloud that others are held against, which is
 /// of the order that is left out.
 const LEFT_OUT: f64 = 0.25;
-/// Largest relative error over (kh)²: `docs/manufactured.md`.
-const DISPERSION: f64 = 0.8;
 /// Angular frequency (rad/s) of the vortex of a body that moves.
 const FREQUENCY: f64 = std::f64::consts::PI;
 /// Relative error at which nothing is left of the motion.
@@ -153,7 +149,7 @@ fn orders(records: &[Record], judged: impl Fn(&Cloud) -> bool) -> Vec<(String, f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::noise::noise;
+    use crate::cases::build::noise;
 
     /// Twelve times the variance of the mean of `n` numbers of a cell, of many cells.
     fn tried(n: usize, place: impl Fn(usize, usize) -> Option<f64>) -> f64 {

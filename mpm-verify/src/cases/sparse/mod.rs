@@ -1,6 +1,4 @@
 //! A vortex in a box on few particles without order: the error of a cloud that is a matter of chance.
-//!
-//! Set-up, choices and tolerances: `docs/sparse.md`.
 
 mod checks;
 mod run;
@@ -48,8 +46,7 @@ pub(super) fn case() -> Case {
         .headline(SOFTENING, "softening (%)", 100.0, 2)
         .headline(BROKEN, "break down (%)", 100.0, 0)
         .watched(&["displacement_error"])
-        .sketch(Sketch::of("A square of 1 m between slippery walls, whose middle turns.")
-            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .sketch(Sketch::block("A square of 1 m between slippery walls, whose middle turns.", [1.0, 1.0])
             .held_along(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
             .load([0.75, 0.4], [0.75, 0.6])
             .load([0.25, 0.6], [0.25, 0.4])

@@ -2,7 +2,6 @@
 
 use super::*;
 use crate::cases::manufactured::{errors, forcing, vector};
-use crate::cases::noise::noise;
 use crate::exact::vortex_box::ENTRY;
 
 /// Largest angle of the vortex (rad): so small that particles stay where they are.

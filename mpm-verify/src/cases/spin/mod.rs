@@ -1,6 +1,4 @@
 //! A free disc that turns, against the exact one: losses of angular momentum and energy by each transfer.
-//!
-//! Set-up, choices and tolerances: `docs/spin.md`.
 
 mod run;
 
@@ -9,12 +7,8 @@ use crate::cases::prelude::*;
 use run::{RADIUS, Spin};
 
 const LEVELS: [Level; 2] = [Level { name: "r4", h: 0.25 }, Level { name: "r8", h: 0.125 }];
-/// Rounding that a sum over the particles gathers in many steps.
-const ROUNDING: f64 = 1e-9;
 /// Turns up to which a disc is judged by the exact one; beyond them by the losses of its transfer.
 const FEW: f64 = 2.0;
-/// Order of the losses of FLIP.
-const ORDER: f64 = 2.0;
 
 parameters! {
     struct Disc {
@@ -172,7 +166,7 @@ fn checks() -> Vec<Check> {
                 |d, _| format!("order of angular_momentum_error of {}", d.scheme),
                 |coarse, fine| (coarse.metric(ANGULAR_MOMENTUM_ERROR) / fine.metric(ANGULAR_MOMENTUM_ERROR)).log2(),
             )
-            .above(|_| ORDER - 0.15)
+            .above(|_| FORMAL - SLACK)
             .because("what a node's mass is off the node, times the layer in which it is"),
         Check::known_limit("flip-spins-down", "flip with η = 1, ten turns and more, four cells in the radius: loss of a tenth or more of the angular momentum")
             .when(|d| d.is_of(Flip) && d.flip == 1.0 && d.h >= 0.25 * RADIUS && d.is_long())

@@ -10,8 +10,6 @@ pub(super) const RADIUS: f64 = 1.0;
 const ROOM: f64 = 2.0;
 /// Rows in a turn.
 const ROWS: f64 = 20.0;
-/// Smaller values are rounding.
-const LEAST: f64 = 1e-12;
 
 /// A disc that turns as one, at small strain: Timoshenko & Goodier, §32, with the constants of plane strain.
 pub(super) struct Spin {
@@ -118,9 +116,9 @@ impl Problem<2> for Spin {
         });
         let rim = totals.mass * self.omega * RADIUS;
         vec![
-            (ANGULAR_MOMENTUM_ERROR, largest(&|k| (share(k) - 1.0).abs()).max(LEAST)),
+            (ANGULAR_MOMENTUM_ERROR, largest(&|k| (share(k) - 1.0).abs()).max(LEAST_ERROR)),
             (ANGULAR_MOMENTUM_END, share(end)),
-            (MOMENTUM_ERROR, largest(&|k| momentum[k] / rim).max(LEAST)),
+            (MOMENTUM_ERROR, largest(&|k| momentum[k] / rim).max(LEAST_ERROR)),
             (ENERGY_GAIN, largest(&gain)),
             (ENERGY_LOSS, largest(&|k| -gain(k))),
             (ENERGY_END, gain(end)),

@@ -10,8 +10,6 @@ use mpm_core::{Frame, Memoryless};
 const HELD: usize = 2;
 /// The share of its exact value below which the mean stress of the free part says that it has torn.
 const TORN: f64 = 0.5;
-/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
-pub(super) const SWING: f64 = 2.0;
 /// Steps of the stretch in which a prediction is looked for.
 const SCAN: f64 = 1e-3;
 const LOOK: f64 = 0.01;
@@ -236,9 +234,8 @@ impl<const D: usize> Problem<D> for Stretching {
         if seen.stopped.is_some() { 1.0 } else { seen.rows as f64 / f64::from(self.setup.rows) }
     }
 
-    fn particles<'a>(&self, _: &Observed, mut columns: Columns<'a, D>) -> Columns<'a, D> {
-        let stress = columns.run().force_stress();
-        columns.each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
+    fn particles<'a>(&self, _: &Observed, columns: Columns<'a, D>) -> Columns<'a, D> {
+        columns.stress("stress_xx", [0, 0])
     }
 
     fn metrics(&self, seen: &Observed, _: &mut Phase<D>) -> Vec<(Metric, f64)> {

@@ -29,7 +29,7 @@ pub(super) fn checks() -> Vec<Check> {
         Check::known_limit("equal-order-does-not-converge", "undrained, equal order, three levels: largest distance of p from the finite elements of order in h below 1 − 0.15")
             .study(|records| {
                 let why = "nothing holds pressures that no change of volume sees";
-                orders(records, |r| is_set(r, UNDRAINED) && is_of(r, Equal), PRESSURE_ERROR_LARGEST)
+                orders(records, |r| r.changes(UNDRAINED) && is_of(r, Equal), PRESSURE_ERROR_LARGEST)
                     .into_iter()
                     .map(|(name, order)| Finding::at_most(name, order, 1.0 - SLACK, why))
                     .collect()
@@ -40,13 +40,13 @@ pub(super) fn checks() -> Vec<Check> {
             .study(|records| {
                 let why = "neighbours of a pressure with a bounded gradient differ by no more than O(h)";
                 let elastic = orders(records, |r| r.is_default() && is_of(r, TwoGrid), ROUGHNESS);
-                let clay = orders(records, |r| is_set(r, CLAY_BELOW) && is_of(r, TwoGrid), ROUGHNESS);
+                let clay = orders(records, |r| r.changes(CLAY_BELOW) && is_of(r, TwoGrid), ROUGHNESS);
                 at_least([elastic, clay].concat(), 1.0, why)
             }),
         Check::truth("order-time", "elastic, whole load, 10, 20 and 40 steps: order in Δt of the settlement at least 1 − 0.15")
             .study(|records| {
                 let own = records.iter().filter(|r| is_set_but_steps(r, ""));
-                let orders = orders_in_time("Δt", own, |r| number(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
+                let orders = orders_in_time("Δt", own, |r| Loaded::number_of(r, |s| f64::from(s.steps)), 40, SETTLEMENT);
                 at_least(orders, 1.0, "backward Euler's rule, and ghost penalties on increments")
             }),
         Check::truth("uniform-clay", "Cam clay, freely drained load on the whole surface, 10, 20, 40 steps: settlement error against integrated rates of order in Δt at least 0.85")
@@ -100,7 +100,7 @@ fn orders(records: &[Record], own: impl Fn(&Record) -> bool, metric: Metric) -> 
 
 /// Allowance for the settlement of a run beside the error of its cells: the reference's uncertainty and finite strain.
 fn beside(r: &Record) -> Option<f64> {
-    let s = Setup::<Strip>::of_record(r).ok()?;
+    let s = Loaded::of_record(r).ok()?;
     let known = s.reference()?;
     let uncertain = known.settlement_uncertainty / known.settlement;
     Some(uncertain + FINITE * s.load / s.shear_modulus())
@@ -133,7 +133,7 @@ fn squares(records: &[Record]) -> Vec<Finding> {
         let why = "finite elements of Taylor and Hood, and Roache's index of two levels";
         Some(Finding::within(name, ratio(fine), 1.0, bound, why))
     };
-    ladders(records, |r| is_set(r, SQUARE) || is_set(r, SQUARE_UNDRAINED), 2).into_iter().filter_map(of).collect()
+    ladders(records, |r| r.changes(SQUARE) || r.changes(SQUARE_UNDRAINED), 2).into_iter().filter_map(of).collect()
 }
 
 fn uniform(records: &[Record]) -> Vec<Finding> {
@@ -153,7 +153,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
         let most = |of: &dyn Fn(&Record) -> f64| runs.iter().map(|r| of(r)).fold(0.0, f64::max);
         let least = |metric| runs.iter().map(|r| r.metric(metric)).fold(f64::INFINITY, f64::min);
         let largest = most(&|r| r.metric(LAST_LOAD));
-        let part = most(&|r| number(r, |s| s.load / f64::from(s.steps) / 256.0));
+        let part = most(&|r| Loaded::number_of(r, |s| s.load / f64::from(s.steps) / 256.0));
         let moved = most(&|r| r.metric(SETTLEMENT)) - least(SETTLEMENT);
         let metric = format!("range of {} of {scheme} {level}", LAST_LOAD.name);
         let why = "parts of a step of the load, and a width that settlement changes";
@@ -165,13 +165,13 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
 
 fn limits(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()))?;
-        let moved = number(runs.last()?, |s| s.penetration / s.half_width);
+        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()))?;
+        let moved = Loaded::number_of(runs.last()?, |s| s.penetration / s.half_width);
         let metric = format!("{} of {kind} over Prandtl's", LIMITING_LOAD.name);
         let why = "(2 + π) s_u, and Roache's index of three levels";
         let bound = index(over, 1.0, true).bound + moved;
         Some(Finding::within(metric, over[2], 1.0, bound, why))
     };
-    let ladders = ladders(records, |r| is_set(r, LIMIT_LOAD) || is_set(r, LIMIT_SETTLEMENT), DECIDING);
+    let ladders = ladders(records, |r| r.changes(LIMIT_LOAD) || r.changes(LIMIT_SETTLEMENT), DECIDING);
     ladders.into_iter().filter_map(of).collect()
 }

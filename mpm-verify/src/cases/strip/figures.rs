@@ -36,7 +36,7 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
         |record, table: &Table, title: String, load: f64| panel(record, table, title, "pore_pressure", |p| p / load);
     let mut panels = Vec::new();
     if let Some(record) = finest(gallery, Record::is_default) {
-        let (load, duration) = (number(record, |s| s.load), number(record, |s| s.duration));
+        let (load, duration) = (Loaded::number_of(record, |s| s.load), Loaded::number_of(record, |s| s.duration));
         let title = |load: f64| format!("elastic, q = {} kPa", 1e-3 * load);
         for share in SHARES {
             if let Some(table) = gallery.snapshot(record, share * duration)? {
@@ -45,7 +45,7 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
         }
         panels.push(of(record, &gallery.table(record, "particles.csv")?, title(load), load));
     }
-    if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
+    if let Some(record) = finest(gallery, |r| r.changes(CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
         let load = record.metric(LAST_LOAD);
         panels.push(of(record, &table, format!("Cam clay, q = {:.1} kPa", 1e-3 * load), load));
@@ -57,7 +57,7 @@ fn pressures(gallery: &mut Gallery) -> Result<(), Error> {
 /// Where clay has yielded: Figure 11(a).
 fn plastic_strain(gallery: &mut Gallery) -> Result<(), Error> {
     let mut panels = Vec::new();
-    if let Some(record) = finest(gallery, |r| is_set(r, CLAY)) {
+    if let Some(record) = finest(gallery, |r| r.changes(CLAY)) {
         let table = gallery.table(record, "particles.csv")?;
         panels.push(panel(record, &table, "Cam clay at its limit".to_owned(), "plastic_strain", f64::log10));
     }
@@ -70,7 +70,7 @@ fn settlements(gallery: &mut Gallery) -> Result<(), Error> {
     type Own = fn(&Record) -> bool;
     let kinds: [(&str, Own); 3] = [
         ("elastic", is_elastic_but_steps),
-        ("Cam clay", |r| holds(r, |s| s.is_plastic()) && is_set_but_steps(r, CLAY)),
+        ("Cam clay", |r| Loaded::holds(r, |s| s.is_plastic()) && is_set_but_steps(r, CLAY)),
         ("undrained, stiff Cam clay", is_limit),
     ];
     let panel = |(title, own): (&str, Own)| {
@@ -80,8 +80,8 @@ fn settlements(gallery: &mut Gallery) -> Result<(), Error> {
         let panel =
             panel.histories(gallery, runs, |_, t| t.pairs(["settlement", "load"], |s, q| (100.0 * s, 1e-3 * q)))?;
         let named = panel.by_run(|r, curve| {
-            let given = if holds(r, |s| s.is_driven()) { "settlement, " } else { "" };
-            Series { name: format!("{given}{} steps", number(r, |s| f64::from(s.steps))), ..curve }
+            let given = if Loaded::holds(r, |s| s.is_driven()) { "settlement, " } else { "" };
+            Series { name: format!("{given}{} steps", Loaded::number_of(r, |s| f64::from(s.steps))), ..curve }
         });
         Ok(named.styled(|colour, curve| Series {
             marker: Marker::Circle,

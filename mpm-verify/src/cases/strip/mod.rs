@@ -1,7 +1,7 @@
 //! A flexible strip on soil full of water: the solver of solid and water where the ground sinks out of its cells, and
 //! where clay yields.
 //!
-//! G. Pretti et al., section 5.3. Set-up, reference and tolerances: `docs/strip.md`.
+//! G. Pretti et al., section 5.3.
 
 mod checks;
 mod clay;
@@ -9,7 +9,7 @@ mod figures;
 mod reference;
 mod run;
 
-use super::poro::{ROUNDING, spaces};
+use super::poro::spaces;
 use crate::cases::prelude::*;
 use run::SIDE;
 
@@ -115,8 +115,7 @@ pub(super) fn case() -> Case {
         .headline(ENTRIES, "entries of a matrix", 1.0, 0)
         .quantity(value(SETTLEMENT, "settlement"))
         .watched(&["load", "settlement"])
-        .sketch(Sketch::of("Half of a flexible strip on a square of soil whose surface is drained.")
-            .body([[0.0, 0.0], [5.0, 0.0], [5.0, 5.0], [0.0, 5.0]])
+        .sketch(Sketch::block("Half of a flexible strip on a square of soil whose surface is drained.", [5.0, 5.0])
             .held([0.0, 0.0], [5.0, 0.0])
             .held([0.0, 0.0], [0.0, 5.0])
             .length([0.0, -0.5], [5.0, -0.5], "5 B")
@@ -127,14 +126,11 @@ pub(super) fn case() -> Case {
             true => 0.1 * spec.level.h.powi(-6),
             false => 1e-3 * spec.level.h.powi(-3),
         })
-        .begun(|spec, parameters| match Strip::read(parameters)?.dimension {
-            2 => crate::problem::begin::<2, Setup<Strip>>(spec, parameters),
-            _ => crate::problem::begin::<3, Setup<Strip>>(spec, parameters),
-        })
+        .begun(problem::begin_in::<2, 3, Loaded>)
         .pictures(figures::draw)
         .tables(tables())
         .breaks_down(|r| {
-            let none = holds(r, |s| s.ghost_displacement == 0.0);
+            let none = Loaded::holds(r, |s| s.ghost_displacement == 0.0);
             none.then_some("no ghost penalty on displacements: cells of which the body has hardly anything turn inside out")
         })
 }
@@ -165,21 +161,10 @@ fn plan() -> Plan {
         .each(Nightly, "b4", two_grid, ["ghost_pressure=0", "ghost_displacement=0.01", "ghost_displacement=1"])
 }
 
-fn number(r: &Record, of: fn(&Setup<Strip>) -> f64) -> f64 {
-    Setup::number_of(r, of)
-}
-
-fn holds(r: &Record, condition: fn(&Setup<Strip>) -> bool) -> bool {
-    Setup::holds(r, condition)
-}
+type Loaded = Setup<Strip>;
 
 fn is_of(r: &Record, space: SpaceName) -> bool {
     matches!(r.scheme(), Scheme::Poro(parts) if parts.space == space)
-}
-
-/// Whether a run changes exactly the parameters of `set`.
-fn is_set(r: &Record, set: &str) -> bool {
-    r.set.iter().map(String::as_str).eq(set.split_whitespace())
 }
 
 /// Whether a run changes the parameters of `set`, and beside these at most the number of steps.
@@ -189,11 +174,11 @@ fn is_set_but_steps(r: &Record, set: &str) -> bool {
 }
 
 fn is_small(r: &Record) -> bool {
-    is_set(r, SMALL) || is_set(r, UNDRAINED)
+    r.changes(SMALL) || r.changes(UNDRAINED)
 }
 
 fn is_elastic_but_steps(r: &Record) -> bool {
-    is_set_but_steps(r, "") && holds(r, |s| !s.is_plastic())
+    is_set_but_steps(r, "") && Loaded::holds(r, |s| !s.is_plastic())
 }
 
 fn is_limit(r: &Record) -> bool {
@@ -201,23 +186,24 @@ fn is_limit(r: &Record) -> bool {
 }
 
 fn tables() -> Vec<ResultTable> {
-    const STEPS: Label = ("steps", |r| number(r, |s| f64::from(s.steps)).to_string());
-    const WATER: Label = ("water", |r| if holds(r, |s| s.is_undrained()) { "none flows" } else { "flows" }.to_owned());
+    const STEPS: Label = ("steps", |r| Loaded::number_of(r, |s| f64::from(s.steps)).to_string());
+    const WATER: Label =
+        ("water", |r| if Loaded::holds(r, |s| s.is_undrained()) { "none flows" } else { "flows" }.to_owned());
     const SOIL: Label = ("soil", |r| r.parameters.text(LAW));
-    const GHOST_U: Label = ("α_u", |r| number(r, |s| s.ghost_displacement).to_string());
-    const GHOST_P: Label = ("α_p", |r| number(r, |s| s.ghost_pressure).to_string());
+    const GHOST_U: Label = ("α_u", |r| Loaded::number_of(r, |s| s.ghost_displacement).to_string());
+    const GHOST_P: Label = ("α_p", |r| Loaded::number_of(r, |s| s.ghost_pressure).to_string());
     const GIVEN: Label = ("given", |r| r.parameters.text(CONTROL));
-    const LOADED: Label = ("load (Pa)", |r| number(r, |s| s.load).to_string());
+    const LOADED: Label = ("load (Pa)", |r| Loaded::number_of(r, |s| s.load).to_string());
     const SIZE: Label = ("B/h", |r| (1.0 / r.discretisation.h).round().to_string());
     let by_level = |metric, title: &str, format: Format| {
         Column::levels(LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}"))), metric, format)
     };
     let of_limit = LEVELS.map(|(level, n)| {
-        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / number(r, |s| s.prandtl()));
+        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
     let uniform = ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]);
-    let is_large = |r: &Record| r.is_default() || is_set(r, CLAY_BELOW);
+    let is_large = |r: &Record| r.is_default() || r.changes(CLAY_BELOW);
     let is_b4 = |r: &Record| is_of(r, TwoGrid) && r.level == "b4";
     let is_of_steps = move |r: &Record| is_b4(r) && (is_elastic_but_steps(r) || is_set_but_steps(r, CLAY));
     let is_of_ghosts = move |r: &Record| is_b4(r) && r.changes_none_but(&["ghost_displacement", "ghost_pressure"]);
@@ -246,7 +232,7 @@ fn tables() -> Vec<ResultTable> {
             .metric("Newton iterations", NEWTON_ITERATIONS, fixed(0)),
         ResultTable::new("strip-limit", is_limit, &[GIVEN, STEPS, SCHEME], of_limit),
         uniform.metric("error of settlement", UNIFORM_ERROR, share(3)),
-        ResultTable::of("strip-square", |r| holds(r, |s| s.dimension == 3))
+        ResultTable::of("strip-square", |r| Loaded::holds(r, |s| s.dimension == 3))
             .by(&[LOADED, WATER, SCHEME, SIZE])
             .metric("settlement/B", SETTLEMENT, fixed(6))
             .metric("over that of finite elements", SETTLEMENT_RATIO, fixed(4))

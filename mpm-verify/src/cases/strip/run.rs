@@ -1,7 +1,7 @@
 //! Derived quantities, scene and observations of half of a strip on a square of soil, or of a quarter of a square on a cube.
 
 use super::*;
-use crate::cases::poro::{above_rounding, kept, matrix_entries, outflow, volumes};
+use crate::cases::poro::{PER_CELL, above_rounding, kept, matrix_entries, outflow, volumes};
 use mpm_core::Error::{NoConvergence, Singular};
 use mpm_core::material::CamClay;
 use mpm_core::poro::{Face, Settings, Tangent};
@@ -9,8 +9,6 @@ use std::array::from_fn;
 
 /// Side of the soil (m).
 pub(super) const SIDE: f64 = 5.0;
-/// Particles a cell along an axis.
-const PER_CELL: usize = 2;
 /// Empty ground above the surface (m).
 const ROOM: f64 = 1.0;
 /// The base, among the scene's constraints.

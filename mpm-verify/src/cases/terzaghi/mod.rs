@@ -1,6 +1,6 @@
 //! Consolidation of a column of soil at small strain, against Terzaghi's series and the closed form of the first step.
 //!
-//! Section 5.1 of Pretti et al., doi:10.1002/nme.7630. Set-up, choices and tolerances: `docs/terzaghi.md`.
+//! Section 5.1 of Pretti et al., doi:10.1002/nme.7630.
 
 pub(super) mod foreign;
 mod run;
@@ -204,9 +204,8 @@ fn pictures(gallery: &mut Gallery) -> Result<(), Error> {
     for space in [TwoGrid, Equal, Ppp] {
         let scheme = Scheme::poro(Linear, space);
         let own = |r: &&&Record| single(r) && r.level == "n20" && r.scheme() == scheme;
-        let Some(column) = runs.iter().find(own).and_then(|r| Setup::<Terzaghi>::of_record(r).ok()) else {
-            continue;
-        };
+        let column = runs.iter().find(own).and_then(|r| Setup::<Terzaghi>::of_record(r).ok());
+        let Some(column) = column else { continue };
         let closed = |share| 100.0 * column.overshoot_by(space, share);
         first = first
             .curve(Series { name: format!("{space}, closed form"), ..history(scheme, sampled(0.0..=1.0, closed)) })

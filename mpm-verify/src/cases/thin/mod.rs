@@ -1,6 +1,4 @@
 //! A beam one, two, four cells thick: the effect of cells and particles on its bending.
-//!
-//! Set-up, choices and tolerances: `docs/thin.md`.
 
 mod run;
 
@@ -9,8 +7,6 @@ use crate::exact::free_beam::{DEPTH, HALF, SLENDER};
 
 /// Relative difference of a beam's frequency by how its sections shear.
 const SECTIONS: f64 = 2e-3;
-/// Formal order of the error.
-const FORMAL: f64 = 2.0;
 /// Rounding of a frequency that is read from zeros of a series.
 const READ: f64 = 1e-3;
 /// Least share of the amplitude at which the zeros are those of the first mode.
@@ -64,8 +60,7 @@ pub(super) fn case() -> Case {
         .headline(STIFFNESS_RATIO, "bending stiffness over exact (–)", 1.0, 3)
         .headline(AMPLITUDE_RATIO, "amplitude kept (–)", 1.0, 3)
         .watched(&["deflection"])
-        .sketch(Sketch::of("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.")
-            .body([[0.0, 0.0], [HALF, 0.0], [HALF, DEPTH], [0.0, DEPTH]])
+        .sketch(Sketch::block("Half of a free beam of 2 m by 0.1 m, with a plane of symmetry in its middle.", [HALF, DEPTH])
             .held([0.0, 0.0], [0.0, DEPTH])
             .load([0.1, 0.25], [0.1, 0.15])
             .load([0.95, 0.15], [0.95, 0.25])

@@ -99,9 +99,8 @@ impl Problem<2> for Swing {
         phase.share_of(self.steps)
     }
 
-    fn particles<'a>(&self, _: &Rows, mut columns: Columns<'a, 2>) -> Columns<'a, 2> {
-        let stress = columns.run().force_stress();
-        columns.references().each("stress_xx", "Pa", |_, k| stress[k].get(0, 0))
+    fn particles<'a>(&self, _: &Rows, columns: Columns<'a, 2>) -> Columns<'a, 2> {
+        columns.references().stress("stress_xx", [0, 0])
     }
 
     fn metrics(&self, seen: &Rows, _: &mut Phase<2>) -> Vec<(Metric, f64)> {

@@ -1,6 +1,4 @@
 //! A prestressed body that crosses a hundred cells: its exact stress is constant, and every deviation is noise of crossing.
-//!
-//! Set-up, choices and tolerances: `docs/translate.md`.
 
 mod run;
 
@@ -9,10 +7,6 @@ use crate::cases::prelude::*;
 use run::{PERIOD, Translation};
 
 const LEVELS: [Level; 1] = [Level { name: "n8", h: 1.0 / PERIOD as f64 }];
-/// Rounding of a stress over many steps.
-const ROUNDING: f64 = 1e-9;
-/// Ratio of the swing of an oscillator to its static answer, for a force that acts at once.
-const SWING: f64 = 2.0;
 /// Fastest body whose noise is predicted: beyond it the wave of the lattice is as fast as sound.
 const SLOW: f64 = 0.06;
 
@@ -61,8 +55,7 @@ pub(super) fn case() -> Case {
         .headline(VELOCITY_NOISE, "of the velocity (%)", 100.0, 3)
         .headline(ENERGY_GAIN, "energy gain (–)", 1.0, 5)
         .watched(&["stress_kept", "stress_noise"])
-        .sketch(Sketch::of("A body that fills a periodic grid of 8 by 4 cells and moves along it.")
-            .body([[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]])
+        .sketch(Sketch::block("A body that fills a periodic grid of 8 by 4 cells and moves along it.", [1.0, 0.5])
             .load([0.35, 0.25], [0.65, 0.25])
             .note([0.5, 0.38], "0.05 c")
             .length([0.0, -0.08], [1.0, -0.08], "8 h, periodic"))

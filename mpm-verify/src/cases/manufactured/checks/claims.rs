@@ -6,8 +6,6 @@ use crate::cases::prelude::*;
 use crate::exact::common::{AMPLITUDE, DIMENSION};
 use crate::exact::vortex_pressure::PRESSURE;
 
-/// Order of a method that reproduces linear fields.
-pub(super) const FORMAL: f64 = 2.0;
 /// An order below this is not the formal one.
 pub(in crate::cases) const STALLED: f64 = FORMAL - SLACK;
 /// Displacements (m) beyond this cross cells that the levels have.
