@@ -36,6 +36,7 @@ macro_rules! every_basis {
 // After the macro, which they use.
 mod cells;
 mod contact;
+mod cylinder;
 mod dynamics;
 mod guess;
 mod take_over;

@@ -53,6 +53,7 @@
 //! *Fundamentals of Soil Mechanics*.
 
 mod sliding;
+pub mod spiral;
 
 pub use sliding::Sliding;
 

@@ -27,6 +27,8 @@ metrics! { OWN:
     HEIGHT_RATIO = "height_ratio", "-", "sand column: height that is left over that of the start";
 }
 
+/// Cells (m) of the strip's scene; those of the others are as much larger or smaller.
+const CELLS: f64 = 0.25;
 /// Half width of the strip and height of its box (m), and the load (Pa).
 const STRIP: (f64, f64, f64) = (1.0, 16.0, 1000.0);
 /// Active and passive force on the wall (N/m): ½ K ρ g H² − 2c √K H and its counterpart, φ = 30°, c = 1 kPa, H = 5 m.
@@ -90,13 +92,19 @@ fn begin(spec: &RunSpec, values: &Parameters) -> Result<Box<dyn Job>, Error> {
         Ground::Wall => include_str!("../../scenes/earth-pressure.toml"),
         Ground::Sand => include_str!("../../scenes/sand-column.toml"),
     };
-    scene::begin(text, spec, values, Box::new(move |ends, particles| measure(ground, ends, particles)))
+    scene::begin(
+        text,
+        spec.level.h / CELLS,
+        spec,
+        values,
+        Box::new(move |ends, particles| measure(ground, ends, particles)),
+    )
 }
 
 pub(super) fn case() -> Case {
     let statics = implicit(&[RuleName::QuasiStatic], &[Gimp, Bspline2], &[RemedyName::None]);
     let sand = pairs(&[Gimp, Bspline2], &[RemedyName::None]);
-    let plan = Plan::of(vec![Level::new("c1", 1.0), Level::new("c2", 0.5), Level::new("c4", 0.25)])
+    let plan = Plan::of(vec![Level::new("c1", CELLS), Level::new("c2", 0.5 * CELLS), Level::new("c4", 0.25 * CELLS)])
         .runs(Pr, "c1", &statics, "")
         .runs(Pr, "c1", &statics, "ground=earth-pressure")
         .runs(Pr, "c1", &sand[1..], "ground=sand-column")
@@ -104,12 +112,12 @@ pub(super) fn case() -> Case {
         .runs(Nightly, "c1 c2", &statics, "ground=earth-pressure")
         .runs(Nightly, "c1 c2 c4", &sand, "ground=sand-column");
     Case {
-        cost: Box::new(|spec| spec.level.h.powi(-3)),
-        ..Case::begun_by("soils", "Ground against exact solutions", &metrics(), Soils::list(), Box::new(begin))
+        cost: Box::new(|spec| (CELLS / spec.level.h).powi(3)),
+        ..Case::begun_by("soils", "Ground against exact solutions", &[OWN, &[scene::ENERGY]].concat(), Soils::list(), Box::new(begin))
     }
     .planned(plan)
     .described("Shipped scenes of ground: a strip load on an elastic half-space, by a traction; a wall between which and \
-        another one ground yields, actively and passively; a column of sand that collapses. Levels halve and quarter their cells.")
+        another one ground yields, actively and passively; a column of sand that collapses. Levels are cells of the strip load, and those of the others in proportion.")
     .reference("Flamant's solution of a line load, integrated over the strip.")
     .reference("Rankine (1857): K = tan²(π/4 ∓ φ/2).")
     .reference("Lube et al. (2005), doi:10.1103/PhysRevE.72.041301: experiments on columns of sand, validation.")
@@ -137,10 +145,6 @@ pub(super) fn case() -> Case {
         table("earth-pressure", Ground::Wall).metric("active", ACTIVE_RATIO, fixed(4)).metric("passive", PASSIVE_RATIO, fixed(4)).cpu(),
         table("sand-column", Ground::Sand).metric("run-out", RUNOUT_RATIO, fixed(2)).metric("height left", HEIGHT_RATIO, fixed(2)).cpu(),
     ])
-}
-
-fn metrics() -> Vec<Metric> {
-    [OWN.to_vec(), scene::metrics_in(2)].concat()
 }
 
 /// The runs of a ground.

@@ -40,7 +40,7 @@ use shape::Seeds;
 use std::path::Path;
 use std::sync::Mutex;
 use watch::Course;
-pub(super) use watch::{ENERGY, metrics_in};
+pub(super) use watch::ENERGY;
 
 /// A scene that a file describes.
 pub struct SceneFile {
@@ -137,14 +137,19 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
 /// What a case measures of a run: of the last rows of its phases, and of its particles at the end.
 pub(super) type Measure = Box<dyn Fn(&[Row], &[Column]) -> Vec<(Metric, f64)> + Send>;
 
-/// Begins a run of a shipped scene in the plane, by the scheme of `spec` and with cells as large as its level says, over
-/// those of the scene.
-pub(super) fn begin(text: &str, spec: &RunSpec, values: &Parameters, measure: Measure) -> Result<Box<dyn Job>, Error> {
+/// Begins a run of a shipped scene in the plane, by the scheme of `spec` and with cells larger by a `ratio`.
+pub(super) fn begin(
+    text: &str,
+    ratio: f64,
+    spec: &RunSpec,
+    values: &Parameters,
+    measure: Measure,
+) -> Result<Box<dyn Job>, Error> {
     let source = Source { path: "scene".into(), text: text.to_owned(), weaker: 1.0, memory: None };
     let mut form = source.form()?;
     let grid = form.grid.as_mut();
-    grid.cell_size_m.0 *= spec.level.h;
-    grid.cells.iter_mut().for_each(|cells| cells.0 = (f64::from(cells.0) / spec.level.h).round() as u32);
+    grid.cell_size_m.0 *= ratio;
+    grid.cells.iter_mut().for_each(|cells| cells.0 = (f64::from(cells.0) / ratio).round() as u32);
     form.solver.as_mut().scheme = spec.scheme.to_string();
     let made = crate::setup::Setup::new(spec, values, Setup::<2>::new(&source, form)?);
     Ok(Box::new(Driver::new(Course::new(made)?.measured(measure))?))

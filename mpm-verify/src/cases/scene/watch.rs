@@ -45,7 +45,7 @@ fn per_depth(unit: &'static str, dimension: usize) -> &'static str {
 const CHARTS: usize = 6;
 
 /// The metrics of a scene in `dimension` dimensions.
-pub(in crate::cases) fn metrics_in(dimension: usize) -> Vec<Metric> {
+pub(super) fn metrics_in(dimension: usize) -> Vec<Metric> {
     let of = |m: &Metric| Metric { unit: per_depth(m.unit, dimension), ..*m };
     ALL.iter().map(of).collect()
 }
@@ -346,7 +346,9 @@ impl<const D: usize> Problem<D> for Course<D> {
             (BOARD, checkerboard(&mean, &averaged)),
             (PLASTIC, most(&plastic)),
         ];
-        let all = all.into_iter().filter(|(_, value)| value.is_finite());
+        // A case is judged by what it measures itself, and by the energy.
+        let kept = |metric: &Metric| self.measure.is_none() || *metric == ENERGY;
+        let all = all.into_iter().filter(|(metric, value)| value.is_finite() && kept(metric));
         all.map(|(m, value)| (Metric { unit: per_depth(m.unit, D), ..m }, value)).chain(measured).collect()
     }
 }

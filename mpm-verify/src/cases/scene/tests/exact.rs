@@ -113,3 +113,45 @@ fn a_strip_load_spreads_as_in_a_half_space() {
     }
     assert!(count > 500, "{count}");
 }
+
+/// σ_v/q at a `depth` below a corner of a rectangle under q, of the sides m and n over the depth (Love 1929).
+fn below_corner([m, n]: [f64; 2]) -> f64 {
+    let (square, product) = (m * m + n * n + 1.0, 2.0 * m * n * (m * m + n * n + 1.0).sqrt());
+    let angle = product.atan2(square - (m * n).powi(2));
+    (product / (square + (m * n).powi(2)) * (square + 1.0) / square + angle) / (4.0 * PI)
+}
+
+/// Stresses of a pad load in space, below the depth b, as those of the strip in `docs/soils.md`: h/(π b) of the load. All rows
+/// of particles bear all of it.
+#[test]
+fn a_pad_load_spreads_as_in_a_half_space() {
+    for scheme in ["bspline2", "gimp"] {
+        let scheme = format!("quasi-static-{scheme}-none");
+        let mut job = run("pad-load.toml", &[("quasi-static-bspline2-none", &scheme)], 1.0).unwrap();
+        let particles = job.particles();
+        let of = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+        let (places, stress) = (["x", "y", "z"].map(of), of("stress_zz"));
+        let (mut count, mut borne) = (0, [0.0; 2]);
+        for k in 0..stress.len() {
+            let [x, y, depth] = [places[0][k], places[1][k], 6.0 - places[2][k]];
+            // Half of the force is borne by either row of a cell.
+            let row = (depth / 0.25) as usize;
+            if (10..12).contains(&row) {
+                borne[row - 10] += stress[k] * 0.25 * 0.25;
+            }
+            if !(1.0..3.0).contains(&depth) || x > 2.0 || y > 2.0 {
+                continue;
+            }
+            let quarters = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| {
+                let sides: [f64; 2] = [1.0 + a * x, 1.0 + b * y];
+                sides[0].signum() * sides[1].signum() * below_corner(sides.map(|side| side.abs() / depth))
+            });
+            let error = -stress[k] / 1000.0 - quarters.iter().sum::<f64>();
+            assert!(error.abs() < 0.5 / PI, "{scheme} {x} {y} {depth}: {error}");
+            count += 1;
+        }
+        assert!(count > 500, "{count}");
+        let mean = 0.5 * (borne[0] + borne[1]);
+        assert!((mean / -1000.0 - 1.0).abs() < 1e-3, "{scheme}: {borne:?}");
+    }
+}
