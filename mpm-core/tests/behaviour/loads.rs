@@ -1,9 +1,12 @@
 //! Loads on free sides, and factors over time.
 
-use crate::scenes::{DENSITY, block};
-use mpm_core::Particles;
+use crate::scenes::{DENSITY, block, law};
+use mpm_core::basis::Gimp;
 use mpm_core::frame::Frame;
-use mpm_core::stage::{Amplitude, Dashpots, DeadForce, End, Load};
+use mpm_core::implicit;
+use mpm_core::stage::{Amplitude, Dashpots, DeadForce, End, Load, Pressure, Wall, WallKind};
+use mpm_core::{Axis, Bodies, Grid, Lattice, Particles, Scene, Simulation, SymmetricTensor};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 const H: f64 = 0.5;
 
@@ -78,7 +81,11 @@ fn loads_on_sides_are_the_same_from_elsewhere() {
     let traction = DeadForce::traction([3.0, -5.0], amplitude(), &own, (1, End::Hi), |_| true);
     let dashpots = Dashpots::new(|_| [7.0, 4.0], ([0.5, 1.0], amplitude()), &own, (0, End::Hi), |_| true);
     let frame = Frame::along([(1, -1.0), (0, 1.0)]).in_units(1e3, 1e-6);
-    let loads: [Box<dyn Load<2>>; 2] = [Box::new(traction), Box::new(dashpots)];
+    let [side, corner] = [(1, End::Hi), (0, End::Lo)];
+    let pressure = Pressure::new(3.0, amplitude(), &own, side, |_| true);
+    let other = Pressure::new(3.0, amplitude(), &own, corner, |x| x[1] < 0.3);
+    own.position.iter_mut().for_each(|x| *x = [1.5 * x[0] + 0.3 * x[1] * x[1], 0.8 * x[1] - 0.2 * x[0]]);
+    let loads: [Box<dyn Load<2>>; 4] = [Box::new(traction), Box::new(dashpots), Box::new(pressure), Box::new(other)];
     for load in loads {
         own.external_force.fill([0.0; 2]);
         let mut seen = own.seen_from(&frame);
@@ -91,6 +98,72 @@ fn loads_on_sides_are_the_same_from_elsewhere() {
             assert!((0..2).all(|a| (force[a] - exact[a]).abs() < 1e-12 * frame.force()), "{force:?} {exact:?}");
         }
     }
+}
+
+/// Force of a pressure on a side that was turned by 60° and stretched: normal to it, and of its area now.
+#[test]
+fn a_pressure_goes_with_its_sides() {
+    let turned = Matrix2::new(0.5, -0.75_f64.sqrt(), 0.75_f64.sqrt(), 0.5) * Matrix2::new(1.5, 0.3, 0.0, 0.8);
+    for (side, normal) in [
+        ((0, End::Lo), [-1.0, 0.0]),
+        ((0, End::Hi), [1.0, 0.0]),
+        ((1, End::Lo), [0.0, -1.0]),
+        ((1, End::Hi), [0.0, 1.0]),
+    ] {
+        let mut particles = bent();
+        let load = Pressure::new(3.0, Amplitude::Rise(0.0), &particles, side, |_| true);
+        particles.position.iter_mut().for_each(|x| *x = (turned * Vector2::from(*x)).into());
+        let (force, felt) = sum(&load, 0.0, &mut particles);
+        // Nanson's formula: 2 m of J F⁻ᵀ n.
+        let area = turned.try_inverse().unwrap().transpose() * Vector2::from(normal) * (2.0 * turned.determinant());
+        assert!((Vector2::from(force) + area * 3.0).norm() < 1e-12, "{side:?}: {force:?}");
+        assert_eq!((load.count(), felt), (8, 16));
+    }
+    let mut block = block::<3>(H, 2, [0; 3], [2, 3, 2]);
+    let load = Pressure::new(3.0, Amplitude::Rise(0.0), &block, (2, End::Hi), |_| true);
+    let turned = Matrix3::new(1.2, 0.3, -0.1, 0.2, 0.9, 0.4, -0.3, 0.1, 1.1);
+    block.position.iter_mut().for_each(|x| *x = (turned * Vector3::from(*x)).into());
+    let (force, _) = sum(&load, 0.0, &mut block);
+    let area = turned.try_inverse().unwrap().transpose() * Vector3::z() * (1.0 * 1.5 * turned.determinant());
+    assert!((Vector3::from(force) + area * 3.0).norm() < 1e-12, "{force:?}");
+    // A particle alone has the side that it began with.
+    let mut one = Particles::new(vec![[0.25, 0.25]], 0.25, DENSITY, [0.25; 2]).unwrap();
+    let load = Pressure::new(2.0, Amplitude::Rise(0.0), &one, (1, End::Hi), |_| true);
+    assert_eq!(sum(&load, 0.0, &mut one), ([0.0, -1.0], 1));
+}
+
+/// Pressed on two sides to a third of its modulus, a block has that pressure as Cauchy's stress wherever it is, as its sides
+/// have become shorter; under a dead load it has more.
+#[test]
+fn a_body_under_a_pressure_has_it_at_any_strain() {
+    let pressed = |follows: bool| {
+        let pressure = 100.0 / 3.0;
+        let grid = Grid::new(H, [Axis::walls(0.0, 6); 2]).unwrap();
+        let particles = block(H, 2, [0, 0], [4, 4]);
+        let mut scene = Scene::new(grid, Bodies::new(law(), particles).unwrap())
+            .constrain_all([0, 1].map(|axis| Wall::new(axis, End::Lo, WallKind::Roller)));
+        for axis in [0, 1] {
+            let (p, side) = (&scene.bodies.particles, (axis, End::Hi));
+            let dead = std::array::from_fn(|a| if a == axis { -pressure } else { 0.0 });
+            scene = match follows {
+                true => {
+                    let load = Pressure::new(pressure, Amplitude::Rise(1.0), p, side, |_| true);
+                    scene.load(load)
+                }
+                false => {
+                    let load = DeadForce::traction(dead, Amplitude::Rise(1.0), p, side, |_| true);
+                    scene.load(load)
+                }
+            };
+        }
+        let mut solver = implicit::Solver::new::<Lattice<2, 3, Gimp>>(scene, implicit::Settings::new(0.1)).unwrap();
+        solver.advance(20).unwrap();
+        let stress = &solver.particles().stress;
+        let off = |s: &SymmetricTensor| [s.xx, s.yy].map(|s| (s / -pressure - 1.0).abs());
+        stress.iter().flat_map(off).fold(0.0, f64::max)
+    };
+    assert!(pressed(true) < 1e-6, "{}", pressed(true));
+    assert!(pressed(false) > 0.1, "{}", pressed(false));
 }
 
 /// A triangle, then its mirror: 0 at 1 s, 2 at 3 s, −2 at 5 s, −1 at 6 s and after.

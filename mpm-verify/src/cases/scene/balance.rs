@@ -74,7 +74,9 @@ impl<const D: usize> Setup<D> {
         let stopped = self.form.solver.get_ref().kinetic_damping == Some(true);
         match self.scheme {
             Scheme::Explicit(_) if damped => [Some("every phase has local damping"); 2],
-            Scheme::Explicit(_) if self.absorbs() => [Some("an absorbing side takes momentum"), None],
+            Scheme::Explicit(_) if self.follows() => {
+                [Some("the impulse of an absorbing side or of a pressure follows the motion"), None]
+            }
             Scheme::Explicit(_) if stopped => [Some("kinetic damping takes momentum"), None],
             Scheme::Explicit(_) => [None; 2],
             _ => [Some("an implicit scheme has no impulses"), Some("an implicit scheme balances it within its step")],

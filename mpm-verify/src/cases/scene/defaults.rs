@@ -54,6 +54,7 @@ impl Form {
             LoadForm::Gravity { phases, .. }
             | LoadForm::Force { phases, .. }
             | LoadForm::Traction { phases, .. }
+            | LoadForm::Pressure { phases, .. }
             | LoadForm::Absorbing { phases, .. } => phases,
         });
         let supports = self.supports.iter_mut().map(|support| match support.as_mut() {

@@ -364,6 +364,14 @@ kinds! {
             #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
             #[serde(default, deserialize_with = "named")] phases: Vec<String>,
         },
+        /// A pressure on such sides, which stays normal to them and goes with their area.
+        Pressure {
+            pressure_pa: Finite,
+            axis: AxisForm, end: EndForm,
+            #[serde(default)] on: Region,
+            #[serde(default)] rise_s: NotNegative, amplitude: Option<Name>,
+            #[serde(default, deserialize_with = "named")] phases: Vec<String>,
+        },
         /// Dashpots on such sides: waves leave through them, and one may come in with a velocity.
         Absorbing {
             axis: AxisForm, end: EndForm,

@@ -7,7 +7,7 @@ use super::phase::Phase;
 use super::setup::{Setup, acts, components, end_of, own_axis};
 use super::shape::{holds, vector};
 use crate::cases::prelude::*;
-use mpm_core::stage::{Dashpots, DeadForce, Load};
+use mpm_core::stage::{Dashpots, DeadForce, Load, Pressure};
 
 impl LoadForm {
     /// Rise, amplitude and phases.
@@ -16,6 +16,7 @@ impl LoadForm {
             Self::Gravity { rise_s, amplitude, phases, .. }
             | Self::Force { rise_s, amplitude, phases, .. }
             | Self::Traction { rise_s, amplitude, phases, .. }
+            | Self::Pressure { rise_s, amplitude, phases, .. }
             | Self::Absorbing { rise_s, amplitude, phases, .. } => (rise_s, amplitude, phases),
         }
     }
@@ -38,6 +39,7 @@ impl<const D: usize> Setup<D> {
                 own_axis::<D, _>(source, load, *axis)?;
                 ("traction_pa", traction_pa)
             }
+            LoadForm::Pressure { axis, .. } => return own_axis::<D, _>(source, load, *axis),
             LoadForm::Absorbing { axis, incoming_m_s, rise_s, amplitude, .. } => {
                 own_axis::<D, _>(source, load, *axis)?;
                 if !matches!(self.scheme, Scheme::Explicit(_)) {
@@ -73,6 +75,12 @@ impl<const D: usize> Setup<D> {
                 LoadForm::Gravity { acceleration_m_s2, .. } => {
                     let g = components::<D>(acceleration_m_s2);
                     (Box::new(Gravity(Box::new(move |time| g.map(|g| g * amplitude.at(time))))), particles.len())
+                }
+                LoadForm::Pressure { pressure_pa, axis, end, on, .. } => {
+                    let side = (*axis as usize, end_of(*end));
+                    let pressure = Pressure::new(pressure_pa.0, amplitude, particles, side, holds(on));
+                    let count = pressure.count();
+                    (Box::new(pressure), count)
                 }
                 LoadForm::Absorbing { axis, end, on, incoming_m_s, .. } => {
                     let wave = (components(incoming_m_s.as_deref().unwrap_or_default()), amplitude);
@@ -129,9 +137,10 @@ impl<const D: usize> Setup<D> {
         impulse
     }
 
-    /// Whether waves leave through a side.
-    pub(super) fn absorbs(&self) -> bool {
-        self.form.loads.iter().any(|load| matches!(load.get_ref(), LoadForm::Absorbing { .. }))
+    /// Whether a load depends on the motion.
+    pub(super) fn follows(&self) -> bool {
+        let follows = |load: &LoadForm| matches!(load, LoadForm::Absorbing { .. } | LoadForm::Pressure { .. });
+        self.form.loads.iter().map(Line::get_ref).any(follows)
     }
 }
 
