@@ -206,7 +206,7 @@ fn layers_with_water_begin_under_their_weight_and_rest() {
     let size = 2000.0 * 9.81 * 36.0 / (2.0 * 2e6);
     assert!(last(&rows, "displacement_max (m)") < 1e-9 * size, "{}", last(&rows, "displacement_max (m)"));
     let column = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
-    let [y, xx, yy, p] = ["y", "stress_xx", "stress_yy", "pressure"].map(column);
+    let [y, xx, yy, p] = ["y", "stress_xx", "stress_yy", "pore_pressure"].map(column);
     for (((y, xx), yy), p) in y.iter().zip(xx).zip(yy).zip(p) {
         let (weight, k0) = if *y > 3.0 { (600.0 * (6.0 - y), 0.8) } else { (1800.0 + 1000.0 * (3.0 - y), 0.5) };
         let (vertical, pressure) = (-9.81 * weight, 9810.0 * (6.0 - y));
