@@ -2,7 +2,7 @@
 
 use super::fault::{Line, Source};
 use super::form::{LoadForm, WaterForm};
-use super::setup::{Setup, acts};
+use super::setup::{Setup, acts, components};
 use crate::cases::prelude::*;
 use mpm_core::SymmetricTensor;
 
@@ -21,7 +21,7 @@ impl<const D: usize> Setup<D> {
         self.check_weight_of_water(source)?;
         let stressed = self.form.all_bodies().find(|body| body.get_ref().k0.is_some());
         match stressed {
-            Some(body) if self.gravity().is_none() => Err(source.at(
+            Some(body) if self.gravity().is_none_or(|g| g[..D - 1].iter().any(|g| *g != 0.0)) => Err(source.at(
                 body,
                 "k0 needs one gravity in the first phase, down along the last axis and without rise_s or amplitude",
             )),
@@ -38,9 +38,10 @@ impl<const D: usize> Setup<D> {
         };
         let pulls = |load: &&Line<LoadForm>| matches!(load.get_ref(), LoadForm::Gravity { .. });
         let always = |load: &Line<LoadForm>| self.phases.iter().all(|phase| acts(load.get_ref().when().2, &phase.name));
-        if self.gravity().is_none() || !self.form.loads.iter().find(pulls).is_some_and(always) {
-            let said = "density_kg_m3 needs one gravity, in all phases, down along the last axis and without rise_s or \
-                        amplitude";
+        let mut all = self.form.loads.iter().filter(pulls);
+        if self.gravity().is_none() || !all.next().is_some_and(always) || all.next().is_some() {
+            let said = "density_kg_m3 needs one gravity, in all phases, with a part down along the last axis and without \
+                        rise_s or amplitude";
             return Err(source.at(water, said));
         }
         if level_m.is_some_and(|level| level.0 > self.top() + ROUNDING * self.spacing) {
@@ -66,28 +67,26 @@ impl<const D: usize> Setup<D> {
     }
 
     /// The pressure (Pa) at the start of water with a weight, by place (m), and its density (kg/m³) and acceleration
-    /// (m/s²); none of water without a weight.
-    pub(super) fn hydrostatic(&self) -> Option<(impl Fn(&[f64; D]) -> f64 + Send + Sync + use<D>, f64, f64)> {
+    /// (m/s²); none of water without a weight. It changes along the last axis only: across it, water seeps.
+    pub(super) fn hydrostatic(&self) -> Option<(impl Fn(&[f64; D]) -> f64 + Send + Sync + use<D>, f64, [f64; D])> {
         let water = self.form.water.as_ref()?.get_ref();
         let (density, gravity) = (water.density_kg_m3?.0, self.gravity()?);
         let level = water.level_m.map_or(self.top(), |level| level.0);
-        Some((move |x: &[f64; D]| density * gravity * (x[D - 1] - level), density, gravity))
+        Some((move |x: &[f64; D]| density * gravity[D - 1] * (x[D - 1] - level), density, gravity))
     }
 
-    /// Acceleration (m/s²) of the one gravity of the first phase, if it acts from the start and along the last axis.
-    fn gravity(&self) -> Option<f64> {
+    /// Acceleration (m/s²) of the one gravity of the first phase, if it acts from the start, and down along the last axis.
+    fn gravity(&self) -> Option<[f64; D]> {
         let first = &self.phases.first()?.name;
         let mut all = self.form.loads.iter().filter_map(|load| match load.get_ref() {
             LoadForm::Gravity { acceleration_m_s2, rise_s, amplitude, phases } if acts(phases, first) => {
-                let (down, across) = acceleration_m_s2.split_last()?;
-                let steady = rise_s.0 == 0.0 && amplitude.is_none();
-                let level = steady && down.0 < 0.0 && across.iter().all(|g| g.0 == 0.0);
-                Some(if level { down.0 } else { f64::NAN })
+                let gravity = components::<D>(acceleration_m_s2);
+                Some((gravity, rise_s.0 == 0.0 && amplitude.is_none() && gravity[D - 1] < 0.0))
             }
             _ => None,
         });
-        let one = all.next().filter(|g| !g.is_nan());
-        one.filter(|_| all.next().is_none())
+        let (gravity, steady) = all.next()?;
+        (steady && all.next().is_none()).then_some(gravity)
     }
 
     /// Vertical stress (Pa) at every particle: what its column weighs above its middle, over the column's area. None where
@@ -95,7 +94,7 @@ impl<const D: usize> Setup<D> {
     pub(super) fn overburden(&self) -> Vec<f64> {
         let stressed = self.form.all_bodies().any(|body| body.get_ref().k0.is_some());
         let Some(gravity) = self.gravity().filter(|_| stressed) else { return Vec::new() };
-        let per_mass = gravity / self.spacing.powi(D as i32 - 1);
+        let per_mass = gravity[D - 1] / self.spacing.powi(D as i32 - 1);
         let weights: Vec<f64> = (self.form.all_bodies().zip(self.ranges()))
             .flat_map(|(body, range)| range.map(|k| body.get_ref().density_kg_m3.0 * self.seeds.volumes[k]))
             .map(|mass| mass * per_mass)

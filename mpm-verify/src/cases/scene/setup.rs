@@ -397,9 +397,8 @@ impl<const D: usize> Setup<D> {
             water = water.and(porosity, conductivity(own.conductivity.as_ref().unwrap_or(&form.conductivity)));
             water = water.grains(grains(own.density_kg_m3.0, porosity));
         }
-        if let Some((pressure, density, gravity)) = weight {
+        if let Some((pressure, density, acceleration)) = weight {
             let grains = grains(self.form.body.get_ref().density_kg_m3.0, form.porosity.0);
-            let acceleration = std::array::from_fn(|axis| if axis + 1 == D { gravity } else { 0.0 });
             water = water.gravity(poro::Gravity { water: density, grains, acceleration }).start(pressure);
         }
         if let Some(region) = &form.drained {

@@ -244,6 +244,13 @@ fn water_whose_weight_acts_on_nothing_is_refused() {
     std::fs::write(&path, both).unwrap();
     let found = SceneFile::read(&path, 1.0, None).err().unwrap().to_string();
     assert!(found.contains("one gravity, in all phases"), "{found}");
+    let twice = soaked().replace("[output]", later).replace(
+        "[[loads]]\n",
+        "[[loads]]\ngravity = { acceleration_m_s2 = [0, -9.81], phases = [\"later\"] }\n[[loads]]\n",
+    );
+    std::fs::write(&path, twice).unwrap();
+    let found = SceneFile::read(&path, 1.0, None).err().unwrap().to_string();
+    assert!(found.contains("one gravity, in all phases"), "{found}");
     let weightless = soaked().replace(density, "level_m = 6\n").replace("k0 = 0.5\n", "").replace("k0 = 0.8\n", "");
     std::fs::write(&path, weightless).unwrap();
     let found = SceneFile::read(&path, 1.0, None).err().unwrap().to_string();
