@@ -213,7 +213,6 @@ fn slides_by_coulomb<B: Basis<3>, T: Transfer<2>>(transfer: T) {
 fn a_block_slides_on_a_wall_by_coulombs_friction() {
     slides_by_coulomb::<Gimp, _>(Flip::default());
     slides_by_coulomb::<QuadraticBSpline, _>(Flip::default());
-    slides_by_coulomb::<Gimp, _>(Apic);
 }
 
 /// It stays where the coefficient is above twice the slope's tangent, as a load that comes at once swings to twice itself;
