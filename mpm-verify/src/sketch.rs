@@ -35,7 +35,7 @@ impl Sketch {
         Self { shapes: Vec::new(), description }
     }
 
-    /// Of a body of a width and a height, whose lower left corner is the origin.
+    /// A sketch of a body of a width and a height, whose lower left corner is the origin.
     pub(crate) fn block(description: &'static str, [width, height]: [f64; 2]) -> Self {
         Self::of(description).body([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
     }

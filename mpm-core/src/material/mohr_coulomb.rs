@@ -25,7 +25,7 @@ use std::f64::consts::FRAC_PI_2;
 /// Deviators below this have no direction: derivatives of what is divided by their square would be lost.
 const NOTHING: f64 = 1e-60;
 
-/// Friction that is none, by which a cohesion is divided.
+/// The least friction by which a cohesion is divided.
 const SMOOTH: f64 = 1e-30;
 
 /// A Hencky solid with friction, cohesion and dilation.

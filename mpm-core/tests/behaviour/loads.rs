@@ -132,8 +132,8 @@ fn a_pressure_goes_with_its_sides() {
     assert_eq!(sum(&load, 0.0, &mut one), ([0.0, -1.0], 1));
 }
 
-/// Pressed on two sides to a twentieth of its modulus, a block has that pressure as Cauchy's stress, in the mean and but for
-/// the square of its strain, by which domains that keep their size overlap. Under a dead load it has more, by the strain.
+/// Pressed on two sides to a twentieth of its modulus, a block has that pressure as Cauchy's stress, in the mean and up to the
+/// square of its strain, by which domains that keep their size overlap. Under a dead load it has more, by the strain.
 #[test]
 fn a_body_under_a_pressure_has_it_at_any_strain() {
     let pressed = |follows: bool| {

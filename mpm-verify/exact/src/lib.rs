@@ -14,6 +14,7 @@ pub mod dam_break;
 pub mod double_shear;
 pub mod free_beam;
 mod free_fall;
+pub mod ground;
 pub mod hydrostatic;
 pub mod incline;
 pub mod lattice;

@@ -82,9 +82,10 @@ pub(super) fn case() -> Case {
     let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &BASES[..3], &[RemedyName::None]);
     let plan = Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &all[..1], "")
-        .runs(Pr, THREE, &all, "")
+        .runs(Pr, "n8 n16", &all, "")
         .runs(Nightly, FOUR, &all, "")
-        .each(Pr, "n8 n16", &moved, ["cfl=4", "cfl=16"])
+        .each(Pr, "n8", &moved, ["cfl=4", "cfl=16"])
+        .runs(Nightly, "n16", &moved, "cfl=16")
         .each(Nightly, FOUR, &moved, ["cfl=1", "cfl=4"])
         .each(Nightly, "n8", &moved[..3], ["cfl=4 lumped=0", "cfl=4 lumped=1"]);
     known_case::<1, Bar>([

@@ -19,7 +19,7 @@ const ANIMATED: usize = 20_000;
 const EARLY: f64 = 0.5;
 const FLOWING: f64 = 2.5;
 
-/// What is measured at the end of the gravity stage.
+/// Measures at the end of the gravity stage.
 const AT_REST: [Metric; 4] = [KINETIC_SHARE_AT_REST, CHECKERBOARD_AT_REST, YIELDED_AT_REST, WIDTH_SPREAD_AT_REST];
 
 /// Sums up to the moment when the current strength began to hold.

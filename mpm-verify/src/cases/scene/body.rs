@@ -45,7 +45,7 @@ impl LawForm {
     }
 }
 
-/// What a cohesion needs that grows with depth.
+/// Needs of a cohesion that grows with depth.
 const GRADIENT: &str = "cohesion_gradient_pa_m is of a law mohr-coulomb with a cohesion_pa above zero, at the body's \
                         highest point";
 

@@ -174,7 +174,7 @@ tables! {
         name: Name, knots: Option<Vec<[Finite; 2]>>, file: Option<String>,
     }
 
-    /// What softening leaves of a strength, and the plastic strain at which it does.
+    /// A strength that softening leaves, and the plastic strain at which it does.
     #[derive(Clone, Copy)]
     ResidualForm {
         cohesion_pa: Finite, friction_deg: Finite,

@@ -34,7 +34,7 @@ use crate::job::Column;
 use crate::problem::Driver;
 use checks::checks;
 use fault::Source;
-use form::{FORMAT, Form};
+use form::{Courant, FORMAT, Form};
 use setup::Setup;
 use shape::Seeds;
 use std::path::Path;
@@ -134,7 +134,10 @@ fn open<const D: usize>(source: Source, form: Form) -> Result<SceneFile, Error> 
     Ok(SceneFile { case, spec: RunSpec { scheme, level, set: Vec::new(), perturbed: false }, made, moves, height })
 }
 
-/// What a case measures of a run: of the last rows of its phases, and of its particles at the end.
+/// The CFL number of a scene whose own scheme is not explicit.
+const CFL: f64 = 0.3;
+
+/// The measures that a case takes of a run: of the last rows of its phases, and of its particles at the end.
 pub(super) type Measure = Box<dyn Fn(&[Row], &[Column]) -> Vec<(Metric, f64)> + Send>;
 
 /// Begins a run of a shipped scene in the plane, by the scheme of `spec` and with cells larger by a `ratio`.
@@ -150,7 +153,19 @@ pub(super) fn begin(
     let grid = form.grid.as_mut();
     grid.cell_size_m.0 *= ratio;
     grid.cells.iter_mut().for_each(|cells| cells.0 = (f64::from(cells.0) / ratio).round() as u32);
-    form.solver.as_mut().scheme = spec.scheme.to_string();
+    let (solver, row) = (form.solver.as_mut(), form.output.get_ref().row_s);
+    solver.scheme = spec.scheme.to_string();
+    // A scheme of another kind than the scene's has another step.
+    match spec.scheme {
+        Scheme::Explicit(_) => {
+            (solver.time_step_s, solver.tolerance) = (None, None);
+            solver.cfl.get_or_insert(Courant(CFL));
+        }
+        _ => {
+            solver.cfl = None;
+            solver.time_step_s.get_or_insert(row);
+        }
+    }
     let made = crate::setup::Setup::new(spec, values, Setup::<2>::new(&source, form)?);
     Ok(Box::new(Driver::new(Course::new(made)?.measured(measure))?))
 }

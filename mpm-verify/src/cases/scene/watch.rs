@@ -73,7 +73,7 @@ pub(super) struct Course<const D: usize> {
     /// Names of all parts, and of the columns.
     parts: Vec<String>,
     columns: Vec<&'static str>,
-    /// What a case measures of it.
+    /// The measures that a case takes.
     measure: Option<Measure>,
 }
 

