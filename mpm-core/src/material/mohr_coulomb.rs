@@ -84,7 +84,7 @@ impl MohrCoulomb {
     /// A tension that is negative, or not below c cot φ, where the pyramid ends.
     pub fn cut_off(self, tension: f64) -> Result<Self, Error> {
         let [friction, _, cohesion] = self.peak;
-        let within = tension >= 0.0 && tension < f64::INFINITY && tension * friction < cohesion;
+        let within = (0.0..f64::INFINITY).contains(&tension) && tension * friction < cohesion;
         require(within, "tension cut-off", tension, "from 0 to below c cot φ (Pa)")?;
         Ok(Self { tension, ..self })
     }

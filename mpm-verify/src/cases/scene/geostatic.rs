@@ -66,13 +66,11 @@ impl<const D: usize> Setup<D> {
         self.seeds.places.iter().map(|x| x[D - 1]).fold(f64::NEG_INFINITY, f64::max) + 0.5 * self.spacing
     }
 
-    /// The pressure (Pa) at the start of water with a weight, by place (m), and its density (kg/m³) and acceleration
-    /// (m/s²); none of water without a weight. It changes along the last axis only: across it, water seeps.
-    pub(super) fn hydrostatic(&self) -> Option<(impl Fn(&[f64; D]) -> f64 + Send + Sync + use<D>, f64, [f64; D])> {
+    /// The density (kg/m³) of water with a weight, its acceleration (m/s²), and the level (m) of no pressure at the start.
+    pub(super) fn heavy_water(&self) -> Option<(f64, [f64; D], f64)> {
         let water = self.form.water.as_ref()?.get_ref();
-        let (density, gravity) = (water.density_kg_m3?.0, self.gravity()?);
         let level = water.level_m.map_or(self.top(), |level| level.0);
-        Some((move |x: &[f64; D]| density * gravity[D - 1] * (x[D - 1] - level), density, gravity))
+        Some((water.density_kg_m3?.0, self.gravity()?, level))
     }
 
     /// Acceleration (m/s²) of the one gravity of the first phase, if it acts from the start, and down along the last axis.

@@ -68,7 +68,7 @@ impl<const D: usize> Setup<D> {
         particles: &Particles<D>,
     ) -> Result<Vec<Box<dyn Load<D>>>, mpm_core::Error> {
         // The weight of ground and water is that of the water.
-        let soaked = self.hydrostatic().is_some();
+        let soaked = self.heavy_water().is_some();
         let acting = self.acting(phase).filter(|(form, _)| !soaked || !matches!(form, LoadForm::Gravity { .. }));
         let all = acting.map(|(form, amplitude)| {
             let (load, count): (Box<dyn Load<D>>, usize) = match form {

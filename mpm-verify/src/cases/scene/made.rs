@@ -38,8 +38,8 @@ impl<const D: usize> Setup<D> {
                 bodies = bodies.stronger(|k| 1.0 + per_metre * (top - height(range.start + k)))?;
             }
             if let Some(k0) = body.k0.filter(|_| begins) {
-                let water = self.hydrostatic();
-                let borne = |x: &[f64; D]| water.as_ref().map_or(0.0, |(pressure, ..)| pressure(x));
+                let water = self.heavy_water();
+                let borne = |x: &[f64; D]| water.map_or(0.0, |(rho, g, level)| rho * g[D - 1] * (x[D - 1] - level));
                 bodies = bodies.under(|k, x| geostatic::<D>(vertical[k] + borne(x), k0.0))?;
             }
             let stresses = self.seeds.stresses.get(range).unwrap_or_default();

@@ -388,8 +388,8 @@ impl<const D: usize> Setup<D> {
             ConductivityForm::Constant { m2_pa_s } => Conductivity::Constant(m2_pa_s.0),
             ConductivityForm::KozenyCarman { m2_pa_s } => Conductivity::KozenyCarman(m2_pa_s.0),
         };
-        let weight = self.hydrostatic();
-        let density = weight.as_ref().map_or(0.0, |(_, density, _)| *density);
+        let weight = self.heavy_water();
+        let density = weight.map_or(0.0, |(density, ..)| density);
         let grains = |density_of: f64, n: f64| (density_of - n * density) / (1.0 - n);
         let mut water = Water::new(form.porosity.0, conductivity(&form.conductivity));
         for own in self.form.bodies.iter().map(Line::get_ref) {
@@ -397,7 +397,8 @@ impl<const D: usize> Setup<D> {
             water = water.and(porosity, conductivity(own.conductivity.as_ref().unwrap_or(&form.conductivity)));
             water = water.grains(grains(own.density_kg_m3.0, porosity));
         }
-        if let Some((pressure, density, acceleration)) = weight {
+        if let Some((density, acceleration, level)) = weight {
+            let pressure = move |x: &[f64; D]| density * acceleration[D - 1] * (x[D - 1] - level);
             let grains = grains(self.form.body.get_ref().density_kg_m3.0, form.porosity.0);
             water = water.gravity(poro::Gravity { water: density, grains, acceleration }).start(pressure);
         }
