@@ -130,7 +130,8 @@ mod tests {
         // On a side and in a corner.
         let middle = [0, 1].map(|a| 0.5 * (corners[0][a] + corners[1][a]));
         assert!(polygon.holds(middle) && polygon.holds(corners[7]));
-        assert!(begun.elapsed().as_secs_f64() < 2.0, "{:?}", begun.elapsed());
+        // Every point against every side would take minutes.
+        assert!(begun.elapsed().as_secs_f64() < 10.0, "{:?}", begun.elapsed());
     }
 
     #[test]
