@@ -122,8 +122,13 @@ impl<const D: usize, const S: usize, B: Basis<S>, T: Transfer<D>> Solver<D, S, B
                 }));
             }
         });
-        // Friction slows a node before another constraint holds it.
-        declared.sort_by(|a, b| b.friction.total_cmp(&a.friction));
+        // Friction slows a node before another constraint holds it; the order has no ties, and needs no room.
+        if declared.iter().any(|held| held.friction > 0.0) {
+            declared.sort_unstable_by(|a, b| {
+                let places = (a.node, a.axis).cmp(&(b.node, b.axis));
+                b.friction.total_cmp(&a.friction).then(places)
+            });
+        }
         require_held(scene.constraints.len(), declared.iter().map(|held| held.by))
     }
 

@@ -11,9 +11,9 @@
 //! which was right.) Without friction there is no tip, and the pyramid is Tresca's prism.
 //!
 //! c cos φ, sin φ and sin ψ may fall in straight lines with the plastic strain, and a particle may have a cohesion of its
-//! own. A cut-off τ₁ ≤ T, whose flow is normal to it, may end the pyramid before its tip: of a stress beyond both, the
-//! return is to the cut-off first and from there to the pyramid, which leads away from the cut-off. Both hold at the end
-//! of a step; where both flow, how the step divides its flow among them is of first order in the step, as is softening.
+//! own. A cut-off τ₁ ≤ T, whose flow is normal to it, may end the pyramid before its tip. A stress beyond both returns to
+//! the cut-off first and from there to the pyramid, which leads away from the cut-off, so that both hold at the end of a
+//! step. Where both flow, the division of a step between them converges at first order, as softening does.
 
 use super::{Hencky, Law, Response, StateOf, VolumetricState};
 use crate::error::{Error, positive, require};
@@ -202,8 +202,8 @@ impl Law for MohrCoulomb {
             // The greatest principal value of twice the strain's deviator, and the least one's opposite.
             let swapped = |[a, b]: [T; 2]| [split.single.if_positive(a, b), split.single.if_positive(b, a)];
             let [greatest, least] = swapped([single, opposite]);
-            // What the cut-off takes from twice the strain: if it takes from n principal values, those are T after it.
-            // More of them, or fewer, would make the sum smaller.
+            // The cut-off takes a sum from twice the strain, over the n principal values that are T after it. With more of
+            // them, or fewer, the sum would be smaller.
             let lame = 0.5 * (bulk_modulus - 2.0 / 3.0 * shear_modulus);
             let beyond = [greatest, least - greatest, -least].map(|p| mean + shear * p - number(self.tension));
             let taken = |sum: T, n: f64| sum * number((n * lame + shear_modulus).recip());

@@ -109,8 +109,8 @@ fn a_strip_load_spreads_as_in_a_half_space() {
     assert!(count > 500, "{count}");
 }
 
-/// Stresses of a pad load in space, below the depth b, as those of the strip in `docs/soils.md`: h/(π b) of the load. All rows
-/// of particles bear all of it.
+/// Stresses of a pad load in space, below the depth b, as those of the strip in `docs/soils.md`: h/(π b) of the load. Every
+/// row of particles bears the whole load.
 #[test]
 fn a_pad_load_spreads_as_in_a_half_space() {
     for scheme in ["bspline2", "gimp"] {
