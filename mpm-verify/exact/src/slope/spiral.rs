@@ -17,6 +17,8 @@ use crate::Error;
 const SAMPLES: u32 = 40;
 const SEARCHES: u32 = 14;
 const CLOSER: f64 = 4.0;
+/// Least opening of a spiral, rad: work is of third order in it, and below this mostly rounding. γH/c grows as it closes.
+const LEAST_OPENING: f64 = 0.01;
 /// Bisections of a factor of safety, and the greatest one.
 const BISECTIONS: u32 = 50;
 const GREATEST: f64 = 100.0;
@@ -27,7 +29,7 @@ fn number(beta: f64, tan_phi: f64, [first, last]: [f64; 2]) -> Option<f64> {
     let (entry, toe) = ([first.cos(), -first.sin()], [radius * last.cos(), -radius * last.sin()]);
     let height = entry[1] - toe[1];
     let crest = [toe[0] + height / beta.tan(), entry[1]];
-    if last <= first || height <= 0.0 || crest[0] >= entry[0] {
+    if last - first < LEAST_OPENING || height <= 0.0 || crest[0] >= entry[0] {
         return None;
     }
     // ∫ x dA of the sector between pole and spiral, less that of the triangles between pole and ground.
