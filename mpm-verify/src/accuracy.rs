@@ -4,7 +4,8 @@
 //! Roache, *Verification and Validation in Computational Science and Engineering* (1998); Celik et al.,
 //! J. Fluids Eng. 130 (2008) 078001, doi 10.1115/1.2960953.
 
-use crate::statistics::{fit_line, root};
+use crate::exact::root;
+use crate::statistics::fit_line;
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 use std::fmt;

@@ -8,7 +8,7 @@ pub(crate) use crate::demand::{CheckOf, Demand, Held, Over, Quantity, SLACK, sam
 pub(crate) use crate::draw::style::{history, series};
 pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields, signed};
 pub(crate) use crate::error::Error;
-pub(crate) use crate::exact::{Exact, Material};
+pub(crate) use crate::exact::{Exact, Material, root};
 pub(crate) use crate::figure::{Figure, Panel, sampled};
 pub(crate) use crate::gallery::Gallery;
 pub(crate) use crate::job::{Job, Row, Snapshot, row};
@@ -30,7 +30,7 @@ pub(crate) use crate::scheme::{BasisName, RemedyName, RuleName, Scheme, SpaceNam
 pub(crate) use crate::setup::{Run, Setup};
 pub(crate) use crate::sketch::Sketch;
 pub(crate) use crate::spec::{Level, RunSpec};
-pub(crate) use crate::statistics::{checkerboard, fit_line, growth, half_period, mean, rms, root};
+pub(crate) use crate::statistics::{checkerboard, fit_line, growth, half_period, mean, rms};
 pub(crate) use crate::table::Table;
 pub(crate) use mpm_core::contact::{Barrier, Friction, RigidContact, RigidFace};
 pub(crate) use mpm_core::explicit::courant_time_step;

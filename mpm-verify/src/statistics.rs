@@ -1,4 +1,6 @@
-//! Small statistics, roots, and a geometric series.
+//! Small statistics, and a geometric series.
+
+use crate::exact::root;
 
 /// A straight line fitted by least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -108,15 +110,6 @@ pub(crate) fn growth(first: f64, count: i32, whole: f64) -> f64 {
         hi *= 2.0;
     }
     root((0.0, hi), |ratio| whole - sum(ratio))
-}
-
-/// The root of a falling function between two ends, until no number is left between them.
-pub(crate) fn root((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (low + high);
-        if of(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
 }
 
 #[cfg(test)]

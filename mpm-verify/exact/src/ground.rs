@@ -45,6 +45,15 @@ pub fn prandtl_reissner(phi: f64) -> [f64; 2] {
     [nq, (nq - 1.0) / phi.tan()]
 }
 
+/// Where the mechanism of a rough footing of a width (m) ends, from its middle, and its greatest depth (m): a wedge under
+/// π/4 + φ/2, a fan between it and Rankine's passive wedge (Prandtl 1920).
+#[must_use]
+pub fn prandtl_extent(phi: f64, width: f64) -> [f64; 2] {
+    let side = FRAC_PI_4 + 0.5 * phi;
+    let depth = 0.5 * width / side.cos() * (side * phi.tan()).exp() * phi.cos();
+    [0.5 * width + width * side.tan() * (0.5 * PI * phi.tan()).exp(), depth]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,5 +80,9 @@ mod tests {
         assert!((active - (30e3 - 60e3 / 3.0_f64.sqrt())).abs() < 1e-6);
         let [nq, nc] = prandtl_reissner(30.0_f64.to_radians());
         assert!((nq - 18.401).abs() < 1e-3 && (nc - 30.140).abs() < 1e-3);
+        // Without friction a quarter circle between two wedges of 45 degrees.
+        let [end, depth] = prandtl_extent(0.0, 2.0);
+        assert!((end - 3.0).abs() < 1e-12 && (depth - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((prandtl_extent(30.0_f64.to_radians(), 1.0)[0] - 4.79).abs() < 0.005);
     }
 }

@@ -24,6 +24,7 @@ pub mod parameter;
 mod patch;
 pub mod poro;
 mod rigid;
+pub mod shock;
 pub mod slope;
 pub mod stable_step;
 pub mod standing_wave;
@@ -58,6 +59,15 @@ use nalgebra::{Matrix3, Vector3};
 use parameter::{Parameter, Parameters, Value, number, parameter};
 use serde::Serialize;
 use std::fmt;
+
+/// The root of a falling function between two ends, until no number is left between them.
+pub fn root((mut low, mut high): (f64, f64), of: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if of(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
 
 /// Invalid request; the text names the valid values.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

@@ -286,7 +286,7 @@ impl<const D: usize> Problem<D> for Slide<D> {
 
     fn begin(&self, seen: &Seen) -> Begun<D> {
         let (rise, damping) = if seen.reduction.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, self.setup.damping) };
-        let scene = self.ground.scene(&self.setup, self.strength(seen)?, rise)?;
+        let scene = self.ground.scene(&self.setup, self.ground.slope.law(self.strength(seen)?)?, rise)?;
         let settings = self.setup.settings(self.ground.dt, damping)?;
         mpm_solvers::solver(self.setup.scheme, scene, settings)
     }

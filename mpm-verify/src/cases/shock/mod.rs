@@ -1,6 +1,5 @@
 //! A bar that runs into a wall: the front behind which it rests, against Rankine and Hugoniot's conditions.
 
-mod jump;
 mod run;
 
 use crate::cases::prelude::*;
@@ -47,7 +46,7 @@ pub(super) fn case() -> Case {
         .planned(plan())
         .described("A bar runs into a wall at a tenth to twice the speed of its waves and comes to rest behind a front, whose speed, \
             stress and loss of energy are exact.")
-        .reference("Exact: Rankine and Hugoniot's conditions in uniaxial strain, src/cases/shock/jump.rs.")
+        .reference("Exact: Rankine and Hugoniot's conditions in uniaxial strain, exact/src/shock.rs.")
         .limit("Without an artificial viscosity what a front should take rings behind it: none is the default.")
         .wanted("front", "speed of the front", "shock-speed")
         .missed_by("recursion-smears averaged-hats-lose-stress rings weak-viscosity-rings")

@@ -1,8 +1,8 @@
 //! Scene and observations of the bar.
 
-use super::jump::Jump;
 use super::*;
 use crate::cases::build::{DENSITY, YOUNG_MODULUS};
+use crate::exact::shock::Jump;
 
 /// Length (m) of the bar.
 const LENGTH: f64 = 1.0;

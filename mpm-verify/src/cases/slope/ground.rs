@@ -23,9 +23,8 @@ pub(in crate::cases) const STABILITY: (f64, f64, f64) = (6.04, 6.015, 6.078);
 /// Section and clay of a slope.
 pub(in crate::cases) struct Slope {
     pub(in crate::cases) section: Section,
-    /// Young's modulus (Pa), Poisson's ratio, density (kg/m³).
-    young_modulus: f64,
-    poisson_ratio: f64,
+    /// Young's modulus (Pa) and Poisson's ratio, density (kg/m³).
+    pub(in crate::cases) elasticity: (f64, f64),
     pub(in crate::cases) density: f64,
 }
 
@@ -35,8 +34,7 @@ impl<P: ParameterSet> Setup<P> {
         let height = number(HEIGHT);
         Slope {
             section: Section { height, crest: number(CREST), run: height / number(FACE_ANGLE).to_radians().tan() },
-            young_modulus: number(YOUNG_MODULUS),
-            poisson_ratio: number(POISSON_RATIO),
+            elasticity: (number(YOUNG_MODULUS), number(POISSON_RATIO)),
             density: number(DENSITY),
         }
     }
@@ -50,12 +48,12 @@ impl Slope {
 
     /// The longest period (s) of shear waves, 4H/c_s.
     pub(in crate::cases) fn longest_period(&self) -> f64 {
-        let shear_modulus = 0.5 * self.young_modulus / (1.0 + self.poisson_ratio);
+        let shear_modulus = 0.5 * self.elasticity.0 / (1.0 + self.elasticity.1);
         4.0 * self.section.height / (shear_modulus / self.density).sqrt()
     }
 
-    fn law(&self, strength: Strength) -> Result<HenckyJ2, Fault> {
-        HenckyJ2::new(self.young_modulus, self.poisson_ratio, strength)
+    pub(in crate::cases) fn law(&self, strength: Strength) -> Result<HenckyJ2, Fault> {
+        HenckyJ2::new(self.elasticity.0, self.elasticity.1, strength)
     }
 }
 
@@ -124,7 +122,7 @@ impl<const D: usize> Ground<D> {
     pub(in crate::cases) fn scene<P: ParameterSet>(
         &self,
         setup: &Setup<P>,
-        strength: Strength,
+        law: impl Into<SharedLaw>,
         rise: f64,
     ) -> Result<Scene<D>, Fault> {
         let particles = setup.particles_at(self.seed(), self.spacing, self.slope.density)?;
@@ -133,7 +131,7 @@ impl<const D: usize> Ground<D> {
             g[1] = -GRAVITY * Amplitude::Rise(rise).at(time);
             g
         }));
-        let body = Bodies::new(self.slope.law(strength)?, particles)?;
+        let body = Bodies::new(law, particles)?;
         // The fixed base, then rollers at the back and, in three dimensions, at the sides.
         let walls = [clamp(1, End::Lo), roller(0, End::Lo), roller(2, End::Lo), roller(2, End::Hi)];
         let walls = walls.into_iter().filter(|wall| wall.axis < D);

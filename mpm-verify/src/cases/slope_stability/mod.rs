@@ -15,12 +15,15 @@ const LEVELS: [Level; 3] = [Level::new("h0.4", 0.4), Level::new("h0.2", 0.2), Le
 const SLOW: f64 = 0.005;
 /// Cells (m) up to which standard quadratic splines no longer lock beyond what a band of cells explains.
 const FINE: f64 = 0.2;
+/// Ground with friction, in which c = 10 kPa.
+const FRICTION: &str = "friction=20 strength=14142 poisson_ratio=0.3";
 
 parameters! {
     struct Stability {
         young_modulus: f64 = slope::YOUNG_MODULUS;
         poisson_ratio: f64 = slope::POISSON_RATIO;
         strength: f64 = real("Pa", "40.82e3", 1.0, 1e12), "strength κ = ‖s‖, √2 times the undrained shear strength";
+        friction: f64 = real("deg", "0", 0.0, 45.0), "angle of friction φ, and of dilation: Mohr and Coulomb's ground with the cohesion κ/√2";
         density: f64 = slope::DENSITY;
         height: f64 = slope::HEIGHT;
         crest: f64 = slope::CREST;
@@ -82,6 +85,7 @@ fn plan() -> Plan {
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
         .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
         .runs(Nightly, "h0.4 h0.2", &all, "")
+        .runs(Nightly, "h0.4 h0.2 h0.1", &pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]), FRICTION)
         .runs(Long, "h0.1", &all, "")
         .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3 load_steps=2")
         .runs(Nightly, "h0.4 h0.2", &statics, "")
@@ -113,9 +117,10 @@ fn checks() -> Vec<Check> {
     ]
 }
 
-/// Runs of fbar-consistent with the default parameters that came to their end.
+/// Runs of fbar-consistent with the default parameters, or with friction, that came to their end.
 fn ours(records: &[Record]) -> Vec<Run<'_, Stability>> {
-    let ours = |r: &Run<Stability>| r.remedy() == FbarConsistent && r.record.status == Status::Ok && r.is_default();
+    let planned = |r: &Record| r.is_default() || r.changes(FRICTION);
+    let ours = |r: &Run<Stability>| r.remedy() == FbarConsistent && r.record.status == Status::Ok && planned(r.record);
     Run::all(records).filter(ours).collect()
 }
 
@@ -124,7 +129,7 @@ fn agrees(records: &[Record]) -> Vec<Finding> {
     let ours = ours(records);
     let found = |r: &Run<Stability>| {
         let moving = ours.iter().find(|moving| {
-            let same = moving.basis() == r.basis() && moving.level == r.level;
+            let same = moving.basis() == r.basis() && moving.level == r.level && moving.friction == r.friction;
             same && !moving.is_implicit()
         })?;
         let expected = moving.metric(STRENGTH_REDUCTION_FACTOR);
@@ -140,13 +145,13 @@ fn agrees(records: &[Record]) -> Vec<Finding> {
 fn converges(records: &[Record]) -> Vec<Finding> {
     let ours = ours(records);
     let mut found = Vec::new();
-    for scheme in crate::distinct(ours.iter().map(|r| r.scheme)) {
-        let mut runs: Vec<_> = ours.iter().filter(|r| r.scheme == scheme).collect();
+    for (scheme, set) in crate::distinct(ours.iter().map(|r| (r.scheme, &r.record.set))) {
+        let mut runs: Vec<_> = ours.iter().filter(|r| r.scheme == scheme && r.record.set == *set).collect();
         runs.sort_by(|a, b| b.h.total_cmp(&a.h));
         for pair in runs.windows(2) {
             let (coarse, fine) = (pair[0], pair[1]);
-            let off = |r: &Run<Stability>| (r.metric(STRENGTH_REDUCTION_FACTOR) - r.factor(STABILITY.0)).abs();
-            let known_to = fine.resolution() + fine.factor(STABILITY.2 - STABILITY.0);
+            let off = |r: &Run<Stability>| (r.metric(STRENGTH_REDUCTION_FACTOR) - r.limit()).abs();
+            let known_to = fine.resolution() + fine.limits().map_or(0.0, |limits| limits[2] - limits[1]);
             let levels = format!("{scheme}: {} against {}", fine.level, coarse.level);
             found.push(Finding::at_most(STRENGTH_REDUCTION_FACTOR, off(fine), off(coarse).max(known_to), levels));
         }
@@ -164,12 +169,16 @@ fn tables() -> Vec<ResultTable> {
         format!("{factor:.3} ({stands:.3} … {fails:.3})")
     };
     let levels = [("h0.4", "h = 0.4 m"), ("h0.2", "0.2 m"), ("h0.1", "0.1 m")];
-    let of_level = levels.map(|(level, title)| Column::text(title, bounds).at(level));
-    let seconds = |title: &str| Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, SHORT);
-    let cpu = levels.map(|(level, title)| seconds(title).at(level));
+    let of = |name, which: fn(&Record) -> bool| {
+        let of_level = levels.map(|(level, title)| Column::text(title, bounds).at(level));
+        let seconds = |title: &str| Column::value(format!("CPU (s), {title}"), |r| r.time.cpu_s, SHORT);
+        let cpu = levels.map(|(level, title)| seconds(title).at(level));
+        ResultTable::new(name, which, &[SCHEME], of_level.into_iter().chain(cpu))
+    };
     let is_main = |r: &Record| r.is_default() && is_flip(r) && r.level == "h0.2";
     vec![
         ResultTable::by_remedy("slope", &REMEDIES, is_main, |r| fixed(2).text(r.metric(STRENGTH_REDUCTION_FACTOR))),
-        ResultTable::new("slope-stability", Record::is_default, &[SCHEME], of_level.into_iter().chain(cpu)),
+        of("slope-stability", Record::is_default),
+        of("slope-friction", |r| r.changes(FRICTION)),
     ]
 }

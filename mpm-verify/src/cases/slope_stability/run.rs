@@ -3,6 +3,8 @@
 use super::*;
 use crate::cases::slope::ground::{Ground, RISE, STAGE, STAGE_DAMPING};
 use crate::cases::slope::section::GRAVITY;
+use crate::exact::slope::spiral;
+use mpm_core::material::MohrCoulomb;
 
 /// A slope that moves by this share of its height in a trial fails.
 const FAILS: f64 = 0.02;
@@ -47,18 +49,37 @@ pub(super) fn bracket(trials: &[Trial]) -> (f64, f64) {
 }
 
 impl Setup<Stability> {
-    /// Factor of safety by a stability number.
-    pub(super) fn factor(&self, stability: f64) -> f64 {
-        self.slope().factor_of_safety(self.strength, stability)
+    /// Factor of safety by limit analysis, after its lower and before its upper bound. With friction the spiral is the upper
+    /// one, and the lower is as far below as that of the best circle without.
+    pub(super) fn limits(&self) -> Option<[f64; 3]> {
+        let (best, least, most) = STABILITY;
+        if self.friction > 0.0 {
+            let load = self.slope().factor_of_safety(self.strength, 1.0).recip();
+            let [beta, phi] = [self.face_angle, self.friction].map(f64::to_radians);
+            let factor = spiral::factor_of_safety(beta, phi, load).ok()?;
+            return Some([factor * least / most, factor, factor]);
+        }
+        let factors = [least, best, most].map(|number| self.slope().factor_of_safety(self.strength, number));
+        (self.face_angle == 45.0).then_some(factors)
     }
 
     /// Least and largest factor that the trials may find, where limit analysis knows them.
     pub(super) fn bounds(&self) -> Option<[f64; 2]> {
-        let (_, least, most) = STABILITY;
-        let too_strong = 1.0 + self.h / self.height;
-        let lower = self.factor(least) - self.resolution();
-        let upper = (1.0 + SLOW) * too_strong * self.factor(most) + self.resolution();
-        (self.face_angle == 45.0).then_some([lower, upper])
+        let [least, _, most] = self.limits()?;
+        // A slope with friction stops slowly: one that moves by less than what fails is lower by as much.
+        let lower = if self.friction > 0.0 { FAILS } else { 0.0 };
+        let too_strong = (1.0 + SLOW) * (1.0 + self.h / self.height) * (1.0 + lower);
+        Some([least - self.resolution(), too_strong * most + self.resolution()])
+    }
+
+    /// The ground with its strength divided by a factor.
+    fn law(&self, factor: f64) -> Result<SharedLaw, Fault> {
+        let (slope, strength) = (self.slope(), self.strength / factor);
+        if self.friction == 0.0 {
+            return Ok(slope.law(Strength::perfect(strength)?)?.into());
+        }
+        let phi = (self.friction.to_radians().tan() / factor).atan();
+        Ok(MohrCoulomb::new(slope.elasticity, strength / SQRT_2, [phi, phi])?.into())
     }
 
     /// Half of the bracket that the trials leave.
@@ -66,15 +87,18 @@ impl Setup<Stability> {
         0.5 * (self.most - 1.0) / 2.0_f64.powf(f64::from(self.trials) - 1.0)
     }
 
-    /// Whether standard MPM locks. In equilibrium nothing overshoots, so that fine splines lock, too.
+    /// Whether standard MPM locks. In equilibrium nothing overshoots, so that fine splines lock, too. Friction locks less.
     pub(super) fn locks(&self) -> bool {
+        if self.friction > 0.0 {
+            return self.remedy() == RemedyName::None && self.basis() == Gimp && self.h >= FINE;
+        }
         let coarse = self.h > FINE || self.is_implicit() && self.h >= FINE;
         self.remedy() == RemedyName::None && (self.basis() == Gimp || coarse)
     }
 
-    /// The factor of limit analysis; NaN of another angle than 45°.
-    fn limit(&self) -> f64 {
-        if self.face_angle == 45.0 { self.factor(STABILITY.0) } else { f64::NAN }
+    /// The factor of limit analysis; NaN where it is not known.
+    pub(super) fn limit(&self) -> f64 {
+        self.limits().map_or(f64::NAN, |limits| limits[1])
     }
 
     /// The factor to try next: the largest, then the middle of the bracket.
@@ -159,9 +183,9 @@ impl Problem<2> for Trials {
         let quotient = "density g height / young_modulus";
         let why = "above which it sinks elastically, γ H²/(2 E), by what a slope that fails moves by";
         require_quotient(quotient, strain, 0.0..=2.0 * FAILS, why)?;
-        let factor =
-            std::f64::consts::FRAC_1_SQRT_2 * setup.strength * STABILITY.0 / (setup.density * GRAVITY * setup.height);
-        let quotient = "factor of safety at 45° by strength, density and height";
+        let at_45 = setup.slope().factor_of_safety(setup.strength, STABILITY.0);
+        let factor = setup.limits().map_or(at_45, |limits| limits[1]);
+        let quotient = "factor of safety by strength, density and height";
         require_quotient(quotient, factor, 1.0..=setup.most, "the factors that are tried")?;
         let ground = Ground::new(&setup, 1.0)?;
         Ok(Self { setup, ground })
@@ -173,14 +197,14 @@ impl Problem<2> for Trials {
 
     fn begin(&self, seen: &Seen) -> Begun<2> {
         let (setup, ground) = (&self.setup, &self.ground);
-        let strength = Strength::perfect(setup.strength / seen.factor.unwrap_or(1.0))?;
+        let law = setup.law(seen.factor.unwrap_or(1.0))?;
         if let Some(settings) = setup.implicit_settings(setup.look()) {
-            let scene = ground.scene(setup, strength, 1.0)?;
+            let scene = ground.scene(setup, law, 1.0)?;
             let settings = settings.stabilised(Stabilisation::Ghost(mpm_core::implicit::GHOST));
             return mpm_solvers::implicit(setup.scheme, scene, settings);
         }
         let (rise, damping) = if seen.factor.is_none() { (RISE, STAGE_DAMPING) } else { (0.0, TRIAL_DAMPING) };
-        let scene = ground.scene(setup, strength, rise)?;
+        let scene = ground.scene(setup, law, rise)?;
         mpm_solvers::solver(setup.scheme, scene, setup.settings(ground.dt, damping)?)
     }
 
@@ -271,9 +295,14 @@ mod tests {
     #[test]
     fn the_bounds_are_those_of_limit_analysis() {
         let own = slope(&[]);
-        assert!((own.factor(6.04) - 1.6532).abs() < 1e-4);
+        assert!((own.limit() - 1.6532).abs() < 1e-4);
         let [lower, upper] = own.bounds().unwrap();
         assert!(lower > 1.63 && lower < 1.64 && upper > 1.81 && upper < 1.83);
         assert!(slope(&["face_angle=60"]).bounds().is_none());
+        // Chen's 16.16 for 45 and 20 degrees: there c is divided by as much as tan φ.
+        let factor = slope(&["friction=20", "strength=14142"]).limit();
+        let phi = (20.0_f64.to_radians().tan() / factor).atan();
+        let number = spiral::stability_number(45.0_f64.to_radians(), phi).unwrap();
+        assert!((number * 1e4 / factor / (2150.0 * GRAVITY * 5.0) - 1.0).abs() < 1e-4);
     }
 }

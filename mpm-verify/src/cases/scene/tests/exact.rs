@@ -63,6 +63,25 @@ fn an_infinite_slope_stands_and_fails_by_its_factor() {
     }
 }
 
+/// Water that flows along a slope, its level at the surface: F = (c + σ′ tan φ)/τ on the base with σ′ of the buoyant weight
+/// and τ of the whole. The band of shear is two cells wide, so that its middle is a cell above the base at most.
+#[test]
+fn a_slope_with_water_stands_and_fails_by_its_factor() {
+    let (beta, phi) = (20.0_f64.to_radians(), 25.0_f64.to_radians());
+    let factor = |depth: f64, buoyancy: f64| {
+        let normal = (2000.0 - buoyancy) * 9.81 * depth * beta.cos();
+        (20e3 + normal * phi.tan()) / (2000.0 * 9.81 * depth * beta.sin())
+    };
+    assert!(run("wet-slope.toml", &[], factor(5.0, 1000.0)).is_ok());
+    let error = run("wet-slope.toml", &[], factor(4.5, 1000.0)).err().map(|e| e.to_string()).unwrap_or_default();
+    assert!(error.contains("off the grid") || error.contains("half a cell"), "{error}");
+    // By total stresses it would stand at far more, and does where the water is left out.
+    let dry = std::fs::read_to_string(shipped("wet-slope.toml")).unwrap();
+    let water = dry.split("[water]").nth(1).and_then(|rest| rest.split("[[loads]]").next()).unwrap();
+    let changes = [(&*format!("[water]{water}"), ""), ("poro-gimp-two-grid", "quasi-static-gimp-none")];
+    assert!(run("wet-slope.toml", &changes, factor(5.0, 0.0)).is_ok());
+}
+
 /// Clay whose strength grows with depth, s_u = 10 kPa + 3 kPa/m z, on a slope: F = s_u/(ρ g z sin β) at the base. A cut-off
 /// of tension changes nothing, and softening brings it down.
 #[test]

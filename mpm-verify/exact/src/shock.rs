@@ -1,39 +1,51 @@
 //! The exact front: Rankine and Hugoniot's conditions for a bar in uniaxial strain that runs into a wall.
 
-use crate::cases::prelude::*;
+use crate::root;
+use mpm_core::Law;
+use mpm_core::material::NeoHookean;
+use nalgebra::Matrix3;
 
 /// Slices of a front that are summed.
 const SLICES: usize = 1000;
 /// Relative step of derivatives.
 const STEP: f64 = 1e-4;
 
+/// What the front leaves behind it.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Jump {
-    /// Stretch, its stress (Pa, tension positive), and the front's speed through the undeformed material (m/s).
-    pub(super) stretch: f64,
-    pub(super) stress: f64,
-    pub(super) speed: f64,
+pub struct Jump {
+    /// Stretch.
+    pub stretch: f64,
+    /// Stress of that stretch (Pa, tension positive).
+    pub stress: f64,
+    /// Speed of the front through the undeformed material (m/s).
+    pub speed: f64,
     /// Energy that is lost per undeformed volume (J/m³).
-    pub(super) lost: f64,
-    /// See `jump_bound`.
-    pub(super) bound: f64,
+    pub lost: f64,
+    /// How far the mean stress can be off as the energy that should be lost rings, over the stress.
+    pub bound: f64,
     law: NeoHookean,
     density: f64,
 }
 
+/// P = σ in uniaxial strain (Pa), and the energy (J/m³).
+fn at_rest(law: &NeoHookean, stretch: f64) -> (f64, f64) {
+    let (stress, state) = law.at_rest(&Matrix3::from_diagonal(&[stretch, 1.0, 1.0].into()));
+    (stress.xx, law.energy(&state))
+}
+
 /// P = σ in uniaxial strain (Pa).
 fn stress(law: &NeoHookean, stretch: f64) -> f64 {
-    law.at_rest(&stretched(stretch)).0.get(0, 0)
+    at_rest(law, stretch).0
 }
 
 impl Jump {
     /// The jump of a bar of this density (kg/m³) that runs into a wall at `speed` (m/s). Mass: V = S (1 − F). Momentum:
     /// −P = ρ₀ S V. So −P (1 − F) = ρ₀ V², whose left side falls as F rises.
-    pub(super) fn new(law: &NeoHookean, density: f64, speed: f64) -> Self {
+    #[must_use]
+    pub fn new(law: &NeoHookean, density: f64, speed: f64) -> Self {
         let stretch = root((0.0, 1.0), |f| -stress(law, f) * (1.0 - f) - density * speed * speed);
         let own = stress(law, stretch);
-        let (_, state) = law.at_rest(&stretched(stretch));
-        let lost = 0.5 * density * speed * speed - law.energy(&state);
+        let lost = 0.5 * density * speed * speed - at_rest(law, stretch).1;
         let d = STEP * stretch;
         let [less, more] = [-d, d].map(|d| stress(law, stretch + d));
         let (slope, curvature) = ((more - less) / (2.0 * d), (more - 2.0 * own + less) / (d * d));
@@ -51,7 +63,8 @@ impl Jump {
     /// The distance (m), in the undeformed bar, between the shares `from` and `to` of the jump in a steady front that an
     /// artificial viscosity with the coefficients c₁ and c₂ on cells of size `h` (m) makes: q = ρ₀ S² (1 − F) + P(F) is
     /// what it must bear, which gives the rate ε̇ = −Ḟ/F, and X = S t.
-    pub(super) fn width(&self, [linear, quadratic]: [f64; 2], h: f64, [from, to]: [f64; 2]) -> f64 {
+    #[must_use]
+    pub fn width(&self, [linear, quadratic]: [f64; 2], h: f64, [from, to]: [f64; 2]) -> f64 {
         let c = self.law.wave_speed(self.density);
         let depth = 1.0 - self.stretch;
         let slice = (to - from) / SLICES as f64;
