@@ -11,8 +11,11 @@ use crate::setup::Setup;
 use crate::spec::RunSpec;
 use crate::table::Table;
 use mpm_core::Particles;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+/// Most particles of another code over ours, which have two along each axis of a cell: more are those of smaller cells.
+const MOST_OF_OURS: f64 = 4.0;
 /// Most rows of a table.
 pub(crate) const MOST_ROWS: usize = 5_000_000;
 
@@ -297,6 +300,48 @@ impl Given {
         Err(Error::file(path, said))
     }
 
+    /// Checks that particles of a plane start all over our body, no farther from ours than a cell, and that they are not those
+    /// of smaller cells.
+    ///
+    /// # Errors
+    /// A place that has none, a particle elsewhere, or more than [`MOST_OF_OURS`] times ours.
+    pub(crate) fn require_whole_body(&self, start: Vec<Column>) -> Result<(), Error> {
+        let h = self.discretisation.h;
+        let of = |name: &str| start.iter().find(|c| c.name == name).map_or(&[][..], |c| &c.values);
+        let ours: Vec<[f64; 2]> = of("reference_x").iter().zip(of("reference_y")).map(|(x, y)| [*x, *y]).collect();
+        let given = self.points([&START_X, &START_Y]);
+        let Some((_, path, _)) = self.tables.iter().find(|(part, ..)| *part == Part::Particles) else { return Ok(()) };
+        if ours.is_empty() || given.is_empty() {
+            return Ok(());
+        }
+        let cell = |x: &[f64; 2]| x.map(|x| (x / h).floor() as i64);
+        let alone = |from: &[[f64; 2]], to: &[[f64; 2]]| {
+            let mut cells = HashMap::<[i64; 2], Vec<[f64; 2]>>::new();
+            to.iter().for_each(|x| cells.entry(cell(x)).or_default().push(*x));
+            let near = |x: &[f64; 2]| {
+                let [i, j] = cell(x);
+                let around = (-1..2).flat_map(|a| (-1..2).map(move |b| [i + a, j + b]));
+                let mut others = around.filter_map(|place| cells.get(&place)).flatten();
+                others.any(|y| (x[0] - y[0]).abs().max((x[1] - y[1]).abs()) <= h)
+            };
+            from.iter().find(|x| !near(x)).copied()
+        };
+        let refused = |said: String| Err(Error::file(path, said));
+        if let Some([x, y]) = alone(&ours, &given) {
+            return refused(format!(
+                "no particle starts within a cell ({h} m) of ({x}, {y}) m; allowed: all of the body"
+            ));
+        }
+        if let Some([x, y]) = alone(&given, &ours) {
+            return refused(format!("a particle starts at ({x}, {y}) m, where no body is within a cell ({h} m)"));
+        }
+        let most = (ours.len() as f64 * MOST_OF_OURS) as usize;
+        match given.len() <= most {
+            true => Ok(()),
+            false => refused(format!("{} particles; allowed: up to {most} on cells of {h} m", given.len())),
+        }
+    }
+
     /// Two columns as points.
     pub(crate) fn points(&self, [x, y]: [&Asked; 2]) -> Vec<[f64; 2]> {
         self.column(x).iter().zip(self.column(y).iter()).map(|(x, y)| [*x, *y]).collect()
@@ -307,7 +352,7 @@ impl Given {
     pub(crate) fn in_order(&self, start: [&Asked; 2], seeded: &[[f64; 2]], spacing: f64) -> Result<Vec<usize>, Error> {
         let part = |x: &[f64; 2]| x.map(|x| (x / spacing).floor() as i64);
         let given = self.points(start);
-        let places: std::collections::HashMap<[i64; 2], usize> = given.iter().map(part).zip(0..).collect();
+        let places: HashMap<[i64; 2], usize> = given.iter().map(part).zip(0..).collect();
         let refused = |cause: String| {
             let table = self.tables.iter().find(|(of, ..)| *of == start[0].part);
             let path = table.map_or(Path::new("particles"), |(_, path, _)| path);

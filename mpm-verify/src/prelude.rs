@@ -8,7 +8,7 @@ pub(crate) use crate::demand::{CheckOf, Demand, Held, Over, Quantity, SLACK, sam
 pub(crate) use crate::draw::style::{history, series};
 pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields, signed};
 pub(crate) use crate::error::Error;
-pub(crate) use crate::exact::{Exact, Material, root};
+pub(crate) use crate::exact::{Exact, Material};
 pub(crate) use crate::figure::{Figure, Panel, sampled};
 pub(crate) use crate::gallery::Gallery;
 pub(crate) use crate::job::{Job, Row, Snapshot, row};

@@ -47,6 +47,13 @@ pub struct Failure {
     pub(crate) message: String,
 }
 
+impl Failure {
+    /// What another code says of its own run.
+    pub(crate) fn told(message: String) -> Self {
+        Self { kind: "told".to_owned(), time: f64::NAN, step: 0, particle: 0, value: None, message }
+    }
+}
+
 /// The discretisation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Discretisation {

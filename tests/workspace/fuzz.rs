@@ -15,7 +15,7 @@ use mpm_verify::parameter::{Parameters, Value};
 use mpm_verify::record::Version;
 use mpm_verify::report::diff::Difference;
 use mpm_verify::report::keep::keep;
-use mpm_verify::report::scored::{self, Ours};
+use mpm_verify::report::scored;
 use mpm_verify::run::checkpoint::{Checkpoint, Identity, Keeper};
 use mpm_verify::score::Scores;
 use mpm_verify::study::complete::Completeness;
@@ -310,7 +310,7 @@ fn a_damaged_result_of_another_code_is_refused_or_judged() {
     };
     let score = || {
         if let Ok(scored) = Scores::read(folder.path()) {
-            let ours = Ours::beside(&scored).unwrap();
+            let ours = scored::beside(&scored).unwrap();
             assert!(!scored::text(&scored, &ours).replace("\x1b[", "").contains('\x1b'));
         }
     };

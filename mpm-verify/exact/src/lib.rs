@@ -8,12 +8,14 @@ pub mod axis_aligned;
 pub mod cantilever;
 #[cfg(test)]
 mod check;
+pub mod clay;
 pub mod common;
 pub mod consolidation;
 pub mod dam_break;
 pub mod double_shear;
 pub mod free_beam;
 mod free_fall;
+pub mod free_flight;
 pub mod ground;
 pub mod hydrostatic;
 pub mod incline;

@@ -84,6 +84,8 @@ pub(crate) enum Command {
     Factor(factor::Factor),
     /// Judge the result of another code and compare it with our runs
     Score(score::Score),
+    /// Set results of several codes, and ours, side by side: error, cost and verdict by one rule
+    Board(score::Board),
     /// Write the input of a case for another code: particles, parameters, reference, a form for `score`
     Export(score::Export),
     /// Run a tier of cases, judge them and write the report
@@ -133,6 +135,7 @@ impl Command {
             Self::Scene(command) => command.execute(),
             Self::Factor(command) => command.execute(),
             Self::Score(command) => command.execute(),
+            Self::Board(command) => command.execute(),
             Self::Export(command) => command.execute(),
             Self::Verify(command) => command.execute(),
             Self::Report(command) => command.execute(),

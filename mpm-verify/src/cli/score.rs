@@ -1,8 +1,8 @@
-//! The commands `score` and `export`: other codes.
+//! The commands `score`, `board` and `export`: other codes.
 
 use super::*;
 use mpm_verify::cases::find_scored;
-use mpm_verify::report::{junit, scored};
+use mpm_verify::report::{board, junit, scored};
 use mpm_verify::score::{Scores, export::export, gate::Gate};
 
 #[derive(Args)]
@@ -31,7 +31,7 @@ impl Score {
         let found = Scores::read(&self.folder)?;
         let gate = Gate { strict: self.strict, require: self.require };
         gate.known_to(found.case)?;
-        let ours = scored::Ours::beside(&found)?;
+        let ours = scored::beside(&found)?;
         if let Some(out) = &self.out {
             let _held = hold(out)?;
             scored::write(&found, &ours, &gate, out)?;
@@ -46,6 +46,34 @@ impl Score {
             _ => say(scored::text(&found, &ours) + &refusal)?,
         }
         Ok(gate.exit_code(&found))
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Board {
+    /// Folders with score.json and its tables, or with such folders below: docs/board.md
+    #[arg(required = true)]
+    folders: Vec<PathBuf>,
+    /// Output folder for page, JSON and picture
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Board {
+    pub(super) fn execute(self) -> Result<ExitCode, Error> {
+        let methods = board::gather(&self.folders)?;
+        if let Some(out) = &self.out {
+            let _held = hold(out)?;
+            board::write(&methods, out)?;
+        }
+        match self.json {
+            true => say_json(&methods)?,
+            false => say(board::markdown(&methods))?,
+        }
+        Ok(ExitCode::Good)
     }
 }
 

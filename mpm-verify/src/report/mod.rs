@@ -2,9 +2,9 @@
 //!
 //! Everything here is made from records and CSV files on disk, never from a running simulation.
 
-mod advice;
 #[cfg(test)]
 mod bite;
+pub mod board;
 mod convergence;
 mod criteria;
 pub mod describe;

@@ -3,74 +3,29 @@
 use super::convergence::by_level;
 use super::describe::{found, run_line, verdict_line, verification, verification_json};
 use super::document::Document;
-use super::document::terminal::{aligned, cut, wrapped};
+use super::document::terminal::{aligned, wrapped};
 use super::prelude::*;
-use super::tables::RESULTS;
-use super::{rows, verdicts};
+use super::{board, verdicts};
 use crate::foreign::Asked;
+use crate::score::board::Method;
 use crate::score::{Scored, Scores, gate::Gate};
 
-/// Longest name of a code in the table.
-const LONGEST: usize = 36;
 /// Most names of columns in a note.
 const MOST: usize = 20;
 
-/// Our runs of the same level and parameters, from the rows that are kept.
-pub struct Ours {
-    runs: Vec<Record>,
-    /// Why there are none.
-    absent: Option<String>,
-}
-
-impl Ours {
-    /// Those beside which each run is set: from the rows of the working directory, or else of the checkout that the program
-    /// was built from.
-    ///
-    /// # Errors
-    /// The file of rows is damaged.
-    pub fn beside(scores: &Scores) -> Result<Vec<Self>, Error> {
-        scores.runs.iter().map(Self::of).collect()
-    }
-
-    fn of(scored: &Scored) -> Result<Self, Error> {
-        let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
-        let Some(file) = [PathBuf::from(RESULTS), built].into_iter().find(|file| file.exists()) else {
-            let absent = format!("our runs: no {RESULTS} here; a checkout of the project has it");
-            return Ok(Self { runs: Vec::new(), absent: Some(absent) });
-        };
-        let kept = rows::read(&file)?.into_iter().filter(|row| row.case == scored.case.name);
-        let kept: Vec<Record> = kept.filter_map(|row| row.record()).collect();
+/// Each run as a line of the board, and ours of the same level and parameters.
+///
+/// # Errors
+/// The file of rows is damaged.
+pub fn beside(scores: &Scores) -> Result<Vec<Vec<Method>>, Error> {
+    let rows = board::kept()?;
+    let of = |scored: &Scored| {
         let asked = &scored.record;
-        let own = match asked.is_default() {
-            true => (scored.case.own_runs)(&kept),
-            false => kept.iter().filter(|r| r.parameters == asked.parameters).collect(),
-        };
-        let same = own.into_iter().filter(|r| r.level == asked.level);
-        let mut runs: Vec<Record> = same.filter(|r| r.status == Status::Ok).cloned().collect();
-        runs.sort_by_key(|r| (r.transfer(), r.basis(), r.remedy()));
-        let none = "our runs: none is kept of this level and these parameters";
-        let absent = runs.is_empty().then(|| none.to_owned());
-        Ok(Self { runs, absent })
-    }
-}
-
-/// The result and our runs, a row each: what is measured of the result, and what it took.
-fn table(scored: &Scored, ours: &Ours) -> Sheet {
-    let seen = |m: &str| scored.record.metrics.contains_key(m);
-    let columns = || scored.case.headlines.iter().filter(|c| c.metric.is_some_and(|m| seen(m.name)));
-    let mut head = vec!["scheme".to_owned()];
-    head.extend(columns().map(|c| c.title.clone()));
-    head.extend(["CPU (s)", "own verdict"].map(str::to_owned));
-    let row = |name: String, r: &Record| {
-        let mut row = vec![name];
-        row.extend(columns().map(|c| c.of_run(r)));
-        row.push(fixed(0).text(r.time.cpu_s));
-        row.push(outcome(outcome_of_run(r)).to_owned());
-        row
+        let same = |r: &Record| r.level == asked.level && (asked.is_default() || r.parameters == asked.parameters);
+        let ours = board::ours(scored.case, &rows, asked.is_default(), same)?;
+        Ok([vec![Method::alone(scored)], ours].concat())
     };
-    let own = row(cut(&scored.manifest.code.name.0, LONGEST), &scored.record);
-    let others = ours.runs.iter().map(|r| row(r.scheme().title(), r));
-    Sheet::new(head).with(std::iter::once(own).chain(others))
+    scores.runs.iter().map(of).collect()
 }
 
 /// Title of a run: code, scheme, case, level, parameters.
@@ -125,8 +80,8 @@ pub fn verdict(scores: &Scores) -> String {
 
 /// On the terminal: of each run what is measured, verdicts and our runs; of runs together verdicts and orders; the verdict.
 #[must_use]
-pub fn text(scores: &Scores, ours: &[Ours]) -> String {
-    let runs = scores.runs.iter().zip(ours).map(|(run, ours)| of_run(run, ours));
+pub fn text(scores: &Scores, lines: &[Vec<Method>]) -> String {
+    let runs = scores.runs.iter().zip(lines).map(|(run, lines)| of_run(run, lines));
     let together = ladders(scores).map(|(name, study, levels)| {
         let verdicts: String = study.verdicts.iter().map(verdict_line).collect();
         format!("{}\n{verdicts}\n{}\n", wrapped(&name, "", "  "), aligned(levels))
@@ -134,20 +89,19 @@ pub fn text(scores: &Scores, ours: &[Ours]) -> String {
     runs.chain(together).collect::<String>() + &verdict(scores)
 }
 
-fn of_run(scored: &Scored, ours: &Ours) -> String {
+fn of_run(scored: &Scored, lines: &[Method]) -> String {
     let record = &scored.record;
     let mut t = wrapped(&title(scored), "", "  ") + "\n";
     t += &found(scored.case, record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
-    let _ = writeln!(t, "\n{}", aligned(table(scored, ours)));
-    t.extend(ours.absent.iter().map(|absent| wrapped(absent, "", "  ")));
+    let _ = writeln!(t, "\n{}", aligned(board::lines(lines)));
     t + if scored.manifest.run > 0 { "\n" } else { "" }
 }
 
 /// As JSON: a run, or a list of runs.
 #[must_use]
-pub fn json(scores: &Scores, ours: &[Ours], gate: &Gate) -> Value {
-    let mut runs: Vec<Value> = scores.runs.iter().zip(ours).map(|(run, ours)| run_json(run, ours)).collect();
+pub fn json(scores: &Scores, lines: &[Vec<Method>], gate: &Gate) -> Value {
+    let mut runs: Vec<Value> = scores.runs.iter().zip(lines).map(|(run, lines)| run_json(run, lines)).collect();
     let mut all = if scores.is_list() { verification_json(&scores.summary()) } else { runs.remove(0) };
     if scores.is_list() {
         let together = ladders(scores).map(
@@ -161,12 +115,8 @@ pub fn json(scores: &Scores, ours: &[Ours], gate: &Gate) -> Value {
     all
 }
 
-fn run_json(scored: &Scored, ours: &Ours) -> Value {
+fn run_json(scored: &Scored, lines: &[Method]) -> Value {
     let record = &scored.record;
-    let others = ours.runs.iter().map(|r| {
-        json!({"scheme": r.scheme, "metrics": r.metrics, "cpu_s": r.time.cpu_s,
-            "outcome": outcome_of_run(r)})
-    });
     json!({
         "code": scored.manifest.code.name.0,
         "scheme": scored.manifest.scheme.0,
@@ -177,33 +127,23 @@ fn run_json(scored: &Scored, ours: &Ours) -> Value {
         "verdict": sentence(record),
         "metrics": record.metrics,
         "verdicts": record.verdicts,
-        "ours": others.collect::<Value>(),
+        "ours": lines.iter().skip(1).collect::<Vec<_>>(),
     })
-}
-
-/// A text of the user's as it is in Markdown: no link, picture or mark comes of it.
-fn inert(text: &str) -> String {
-    text.chars().flat_map(|c| if "\\`*[]!".contains(c) { vec!['\\', c] } else { vec![c] }).collect()
 }
 
 /// Writes `score.md` and `verdicts.json`.
 ///
 /// # Errors
 /// A file can't be written.
-pub fn write(scores: &Scores, ours: &[Ours], gate: &Gate, folder: &Path) -> Result<(), Error> {
-    let mut document = Document::new(inert(&format!("{}: {}", scores.case.title, scores.code)));
+pub fn write(scores: &Scores, lines: &[Vec<Method>], gate: &Gate, folder: &Path) -> Result<(), Error> {
+    let mut document = Document::new(board::inert(&format!("{}: {}", scores.case.title, scores.code)));
     gate.refusal(scores).into_iter().for_each(|refusal| document.paragraph(refusal + "."));
-    for (run, ours) in scores.runs.iter().zip(ours) {
-        document.section("", inert(&title(run)));
+    for (run, lines) in scores.runs.iter().zip(lines) {
+        document.section("", board::inert(&title(run)));
         document.paragraph(sentence(&run.record) + ".");
-        let mut beside = table(run, ours);
-        if let Some(own) = beside.rows.first_mut().and_then(|row| row.first_mut()) {
-            *own = inert(own);
-        }
-        document.table("", beside);
-        ours.absent.iter().for_each(|absent| document.paragraph(&**absent));
+        document.table("", board::lines(lines));
         document.table("", verdicts::table(run.record.verdicts.iter().map(|v| (None, v))));
-        notes(run).iter().for_each(|note| document.paragraph(inert(note)));
+        notes(run).iter().for_each(|note| document.paragraph(board::inert(note)));
     }
     for (name, study, levels) in ladders(scores) {
         document.section("", name);
@@ -211,6 +151,6 @@ pub fn write(scores: &Scores, ours: &[Ours], gate: &Gate, folder: &Path) -> Resu
         document.table("", verdicts::table(study.verdicts.iter().map(|v| (None, v))));
     }
     make_folder(folder)?;
-    write_json(&folder.join("verdicts.json"), &json(scores, ours, gate))?;
+    write_json(&folder.join("verdicts.json"), &json(scores, lines, gate))?;
     write_whole(&folder.join("score.md"), document.markdown().as_bytes())
 }

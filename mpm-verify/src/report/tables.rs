@@ -8,7 +8,7 @@ use super::document::Text;
 use super::prelude::*;
 use super::speed::Speed;
 use super::values::Values;
-use super::{criteria, map, rivals, rows, speed, summary};
+use super::{board, criteria, map, rivals, rows, speed, summary};
 use std::fs;
 
 const BEGIN: &str = "<!-- table ";
@@ -43,7 +43,12 @@ impl Page {
             return Err(Error::file(&results, "there is no such file"));
         }
         let rows = rows::read(&results)?;
-        let (tables, values) = (tables(&rows)?, Values::new(&rows));
+        let (mut tables, values) = (tables(&rows)?, Values::new(&rows));
+        let codes = root.join("mpm-verify/codes");
+        if codes.exists() {
+            let kept: Vec<Record> = rows.iter().filter_map(rows::Row::record).collect();
+            tables.extend(board::tables(&board::among(&[codes], &kept)?));
+        }
         let mut files = vec![root.join("README.md")];
         let docs = root.join("docs");
         for entry in fs::read_dir(&docs).map_err(|e| Error::file(&docs, e))? {

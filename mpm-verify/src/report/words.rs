@@ -74,9 +74,10 @@ pub(super) fn sentence(record: &Record) -> String {
         n => format!("{n} checks right"),
     };
     let why = match (found, &record.error) {
-        (_, Some(e)) if record.broke_down() || broke_as_known(record) => {
-            format!("it broke down at {} s", number(Some(e.time)))
-        }
+        (_, Some(e)) if record.broke_down() || broke_as_known(record) => match e.time.is_nan() {
+            true => format!("it broke down: {}", e.message),
+            false => format!("it broke down at {} s", number(Some(e.time))),
+        },
         (Outcome::Right, _) => match checks(Outcome::NotJudged).len() {
             0 => wanted(found) + &right,
             n => format!("{}{right}, {n} not judged", wanted(found)),

@@ -3,7 +3,6 @@
 use super::manifest::SCHEMA;
 use super::*;
 use crate::files::{make_folder, write_csv, write_json, write_whole};
-use crate::foreign::Group;
 use crate::parameter::Parameter;
 use crate::problem::measured;
 use crate::table::Sheet;

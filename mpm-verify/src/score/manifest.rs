@@ -135,6 +135,18 @@ fn assignments<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<String>
     Pairs::deserialize(deserializer)?.0.into_iter().map(assigned).collect()
 }
 
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+pub(crate) enum Ending {
+    #[default]
+    #[serde(rename = "finished")]
+    Finished,
+    #[serde(rename = "broke down")]
+    BrokeDown,
+    #[serde(rename = "not possible")]
+    NotPossible,
+}
+
 /// Statements of a code on a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -159,6 +171,14 @@ pub(crate) struct Manifest {
     pub particles: Option<FileName>,
     /// File of the series.
     pub series: Option<FileName>,
+    /// Size of its cells (m).
+    pub cell_size_m: Option<Positive>,
+    /// How it ended; one that did not finish has no tables.
+    #[serde(default)]
+    pub status: Ending,
+    /// Why it did not finish, and what of the set-up is not the code's own.
+    pub said: Option<Line>,
+    pub note: Option<Line>,
     /// Time step (s), if it has one.
     pub time_step_s: Option<Positive>,
     /// Cost of the run.

@@ -3,6 +3,7 @@
 //!
 //! The format: `docs/reference/score.md`.
 
+pub mod board;
 mod columns;
 pub mod export;
 pub mod gate;
@@ -15,20 +16,24 @@ use crate::case::{Case, find_level};
 use crate::cases::find_scored;
 use crate::error::Error;
 use crate::files::{TABLE, read as read_file, require_inside};
-use crate::foreign::{Asked, Foreign, Gap, Given, Part};
+use crate::foreign::{Asked, Foreign, Gap, Given, Group, Part};
 use crate::metric::Metric;
 use crate::parameter::Parameters;
 use crate::problem::measured;
-use crate::record::{Discretisation, Record};
+use crate::record::{Discretisation, Failure, Record, Status};
+use crate::scheme::BasisName;
 use crate::spec::RunSpec;
 use crate::study::convergence::convergence;
 use crate::study::summary::{CaseStudy, Summary};
 use crate::table::Table;
 use crate::verdict::{Kind, Outcome, Verdict};
 use crate::wanted::settled;
-use manifest::{FILE, Manifest, Positive};
+use manifest::{Ending, FILE, Manifest, Positive};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// Relative difference up to which cells are of the same size.
+const SAME: f64 = 0.01;
 
 /// Runs of another code for one case, judged.
 pub struct Scores {
@@ -52,8 +57,10 @@ impl Scores {
     /// the error names file, run and key or column.
     pub fn read(folder: &Path) -> Result<Self, Error> {
         let tables = |of: &Manifest| [&of.particles, &of.series].map(Clone::clone).into_iter().flatten();
-        let method = |run: &Scored| (run.manifest.scheme.clone(), run.manifest.basis, run.manifest.repeat.clone());
-        let whole = |run: &Scored| (method(run), run.record.level.clone(), run.record.parameters.clone());
+        let whole = |run: &Scored| {
+            let (scheme, basis, repeat) = run.method();
+            (scheme.clone(), basis, repeat.cloned(), run.record.level.clone(), run.record.parameters.clone())
+        };
         let mut runs = Vec::<Scored>::new();
         for manifest in Manifest::read(folder)? {
             let shares = |run: &&Scored| tables(&run.manifest).any(|name| tables(&manifest).any(|own| own == name));
@@ -69,8 +76,8 @@ impl Scores {
         }
         let Some(first) = runs.first() else { return Err(Error::file(&folder.join(FILE), "no run")) };
         let (case, code) = (first.case, first.manifest.code.name.0.clone());
-        let together = crate::distinct(runs.iter().map(method)).into_iter().map(|own| {
-            let own: Vec<&Scored> = runs.iter().filter(|run| method(run) == own).collect();
+        let together = crate::distinct(runs.iter().map(Scored::method)).into_iter().map(|own| {
+            let own: Vec<&Scored> = runs.iter().filter(|run| run.method() == own).collect();
             let names: Vec<String> = own.iter().map(|run| run.name()).collect();
             (names.join(", "), together(case, &own))
         });
@@ -137,15 +144,27 @@ impl Scored {
         }
     }
 
+    /// Scheme, basis and `repeat`: runs that share these differ in level and parameters.
+    fn method(&self) -> (&manifest::Line, BasisName, Option<&manifest::Line>) {
+        (&self.manifest.scheme, self.manifest.basis, self.manifest.repeat.as_ref())
+    }
+
     fn of(folder: &Path, manifest: Manifest) -> Result<Self, Error> {
         let refuse = |key: &str, e: Error| manifest.refuse(folder, key, e);
         let (case, foreign) = find_scored(&manifest.case.0).map_err(|e| refuse("case", e))?;
         let level = find_level(case, &manifest.level.0).map_err(|e| refuse("level", e))?;
+        if let Some(Positive(size)) = manifest.cell_size_m.filter(|size| (size.0 / level.h - 1.0).abs() > SAME) {
+            let said = format!("{size}; allowed: {}, that of the level {}", level.h, level.name);
+            return Err(manifest.refuse(folder, "cell_size_m", said));
+        }
         let set = manifest.parameters.clone();
         let parameters = Parameters::new(&case.parameters, &set).map_err(|e| refuse("parameters", e.into()))?;
         let spec = RunSpec { scheme: (foreign.judged_as)(manifest.basis), level, set, perturbed: false };
         let dt = manifest.time_step_s.map_or(f64::NAN, |dt| dt.0);
-        let (tables, lines) = tables(folder, &manifest, foreign)?;
+        let (tables, lines) = match manifest.status {
+            Ending::Finished => tables(folder, &manifest, foreign)?,
+            _ => Default::default(),
+        };
         let own = (foreign.discretisation)(&spec, &parameters).map_err(|e| refuse("parameters", e))?;
         let (discretisation, steps) = (Discretisation { dt, ..own }, manifest.cost.steps);
         let given = Given { discretisation, spec, parameters, steps, tables };
@@ -154,6 +173,7 @@ impl Scored {
         if let Some(abscissa) = &foreign.abscissa {
             given.require_order(abscissa, &lines)?;
         }
+        given.require_whole_body((foreign.start)(&given.spec, &given.parameters)?)?;
         let gaps = (foreign.gaps)(&given)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
         let mut record = Record::blank(case.name, &given.spec, &given.parameters, given.discretisation.clone(), 0);
@@ -175,6 +195,11 @@ impl Scored {
             }
         }
         record.verdicts = judge(case, foreign, &given, &gaps, &record);
+        if manifest.status != Ending::Finished {
+            let message = manifest.said.as_ref().map_or("no reason is told", |said| &said.0).to_owned();
+            record.status = Status::Failed;
+            record.error = Some(Failure::told(message));
+        }
         Ok(Self { manifest, case, record, missing, unknown, gaps })
     }
 }
@@ -231,14 +256,20 @@ fn tables(folder: &Path, manifest: &Manifest, foreign: &Foreign) -> Result<(Tabl
 /// discrete equations bind nobody, and what is measured from a column that is missing, or left open by the rows of the
 /// series, is not judged.
 fn judge(case: &Case, foreign: &Foreign, given: &Given, gaps: &[(Metric, Gap)], record: &Record) -> Vec<Verdict> {
-    let group_of = |v: &Verdict| foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric));
     let why = |v: &Verdict| {
-        let lacking = group_of(v).into_iter().flat_map(|g| g.columns).filter(|c| !given.has(c)).map(Asked::place);
+        let lacking =
+            group_of(foreign, v).into_iter().flat_map(|g| g.columns).filter(|c| !given.has(c)).map(Asked::place);
         let lacking: Vec<String> = lacking.collect();
         if lacking.is_empty() { open(gaps, v) } else { Some(format!("missing: {}", lacking.join(", "))) }
     };
-    let judged = demands(case.verdicts(record), why).filter(|v| foreign.asks(&v.check) && group_of(v).is_some());
+    let judged =
+        demands(case.verdicts(record), why).filter(|v| foreign.asks(&v.check) && group_of(foreign, v).is_some());
     settled(&case.wanted, judged.collect())
+}
+
+/// The group that measures what a verdict is on.
+fn group_of<'a>(foreign: &'a Foreign, v: &Verdict) -> Option<&'a Group> {
+    foreign.groups.iter().find(|g| g.metrics.iter().any(|m| m.name == v.metric))
 }
 
 /// The demands on every code among verdicts, without known limits of our schemes. One with a reason is not judged.

@@ -1,5 +1,6 @@
 //! Results that were never computed: a reference in the form of a code's own result, and its faults.
 
+mod board;
 mod coverage;
 mod gate;
 mod schema;
@@ -284,7 +285,7 @@ fn words_of_a_result_are_words_on_the_page() {
     let series = result.text("series.csv").replace("base_pressure (-)", "<img onerror=x>");
     fs::write(result.path("series.csv"), series).unwrap();
     let scores = result.scores().unwrap();
-    let ours = crate::report::scored::Ours::beside(&scores).unwrap();
+    let ours = crate::report::scored::beside(&scores).unwrap();
     crate::report::scored::write(&scores, &ours, &gate::gate(false, &[]), &result.path("")).unwrap();
     let page = result.text("score.md");
     for active in ["<script", "<img", "<i>", "[a](", "![p]("] {

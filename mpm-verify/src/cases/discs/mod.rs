@@ -2,16 +2,17 @@
 //!
 //! Section 3.2 of Wang, Vardon, Hicks & Chen (2016).
 
-mod flight;
 mod run;
 
 use crate::cases::prelude::*;
-use flight::{CENTRES, RADIUS};
 use run::{AT_SPEED, IN_CONTACT};
 
 use RuleName::{Midpoint, Newmark};
 use TransferName::{Apic, Flip, Musl, Xpic2};
 
+/// Radius and centres (m) of the discs.
+const RADIUS: f64 = 0.2;
+const CENTRES: [[f64; 2]; 2] = [[0.2, 0.2], [0.8, 0.8]];
 /// Roundings of a step's sum of forces, in shares of the discs' momentum.
 const ROUNDINGS: f64 = 16.0;
 /// Least gain of a rule that does not conserve energy.

@@ -1,8 +1,8 @@
 //! Scene and observations of the discs, four times a second at the paper's speed, as often at others.
 
-use super::flight::{CENTRES, RADIUS, until_met};
 use super::*;
 use crate::cases::build::DENSITY;
+use crate::exact::free_flight::until_met;
 
 /// The centre of symmetry (m).
 const MIDDLE: f64 = 0.5;
@@ -210,8 +210,17 @@ impl Problem<2> for Collision {
         let (dt, steps) = setup.timing();
         let why = "m: a disc that moves by more than a cell in a step flies through the other";
         require_quotient("speed times the time step of step_factor", setup.speed * dt, 0.0..=setup.h, why)?;
-        let half = setup.seed().len() / 2;
-        let free = until_met(&setup, steps as f64 * dt);
+        let (places, duration) = (setup.seed(), steps as f64 * dt);
+        let half = places.len() / 2;
+        let free = if setup.contact == Contact::Bodies {
+            // Domains of particles end half their distance beyond the rims, at most.
+            let way = (2.0 * RADIUS + setup.pitch()).powi(2) - setup.offset.powi(2);
+            let gap = (CENTRES[1][0] - CENTRES[0][0]) * SQRT_2 - way.max(0.0).sqrt();
+            Some(gap / (2.0 * SQRT_2 * setup.speed)).filter(|time| way >= 0.0 && *time <= duration)
+        } else {
+            let functions = (setup.basis(), setup.h, 0.5 / setup.ppc_per_direction as f64);
+            until_met([&places[..half], &places[half..]], functions, setup.speed, duration)
+        };
         Ok(Self { setup, steps, half, free })
     }
 

@@ -166,7 +166,19 @@ pub(super) fn begin(
             solver.time_step_s.get_or_insert(row);
         }
     }
-    let made = crate::setup::Setup::new(spec, values, Setup::<2>::new(&source, form)?);
+    match form.grid.get_ref().cells.len() {
+        3 => measured::<3>(&source, form, (spec, values), measure),
+        _ => measured::<2>(&source, form, (spec, values), measure),
+    }
+}
+
+fn measured<const D: usize>(
+    source: &Source,
+    form: Form,
+    (spec, values): (&RunSpec, &Parameters),
+    measure: Measure,
+) -> Result<Box<dyn Job>, Error> {
+    let made = crate::setup::Setup::new(spec, values, Setup::<D>::new(source, form)?);
     Ok(Box::new(Driver::new(Course::new(made)?.measured(measure))?))
 }
 

@@ -165,7 +165,7 @@ fn one_limit(records: &[Record]) -> Vec<Finding> {
 
 fn limits(records: &[Record]) -> Vec<Finding> {
     let of = |(kind, runs): (String, Vec<&Record>)| {
-        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()))?;
+        let over = of_finest(&runs, |r| r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.exact().prandtl()))?;
         let moved = Loaded::number_of(runs.last()?, |s| s.penetration / s.half_width);
         let metric = format!("{} of {kind} over Prandtl's", LIMITING_LOAD.name);
         let why = "(2 + π) s_u, and Roache's index of three levels";

@@ -4,7 +4,6 @@
 //! G. Pretti et al., section 5.3.
 
 mod checks;
-mod clay;
 mod figures;
 mod reference;
 mod run;
@@ -199,7 +198,8 @@ fn tables() -> Vec<ResultTable> {
         Column::levels(LEVELS.map(|(level, n)| (level, format!("{title}, B/h = {n}"))), metric, format)
     };
     let of_limit = LEVELS.map(|(level, n)| {
-        let over = |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.prandtl()));
+        let over =
+            |r: &Record| format!("{:.4}", r.metric(LIMITING_LOAD) / Loaded::number_of(r, |s| s.exact().prandtl()));
         Column::text(format!("q/Prandtl's, B/h = {n}"), over).at(level)
     });
     let uniform = ResultTable::of("strip-uniform", |r| is_set_but_steps(r, UNIFORM)).by(&[STEPS]);

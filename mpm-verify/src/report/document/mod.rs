@@ -72,14 +72,6 @@ impl Text {
         self.0.iter().map(|span| &*span.text).collect()
     }
 
-    /// Without the targets of links.
-    pub(super) fn unlinked(mut self) -> Self {
-        for span in self.0.iter_mut().filter(|span| span.kind == "link") {
-            span.kind = "plain";
-        }
-        self
-    }
-
     /// An outcome in words, with a symbol.
     pub(super) fn badge(outcome: Outcome) -> Self {
         let [symbol, words, class] = words::shown(outcome);

@@ -1,7 +1,6 @@
-//! The index: recommended schemes, the result and cost of every scheme in every case, and the cases.
+//! The index: the result and cost of every scheme in every case, and the cases.
 
 use super::{docs, file_of, in_repository, pictures, run};
-use crate::report::advice::advice;
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text, prose};
 use crate::report::fate::Fate;
 use crate::report::prelude::*;
@@ -13,7 +12,6 @@ use crate::report::{map, words::OUTCOMES};
 /// The sections and the other files of a report.
 pub(super) fn links() -> Vec<Text> {
     let sections = [
-        ("Which scheme to take", "#advice"),
         ("Map", "#map"),
         ("Speed against error", "#speed"),
         ("Cases", "#cases"),
@@ -34,8 +32,9 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
         _ => Text::mark("✗", "fail").then(" ").then(Text::link("something failed", "#failed")),
     };
     let about = "The locking-free material point method against exact solutions, independent references and published results. ";
-    page.paragraph(Text::from(about).then(result).then_below(counts.lines().next().unwrap_or_default()));
-    schemes(&mut page);
+    let readme = in_repository("which scheme to take", "README.md#which-scheme-to-take", "HEAD");
+    let about = Text::from(about).then("The README says ").then(readme).then(". ");
+    page.paragraph(about.then(result).then_below(counts.lines().next().unwrap_or_default()));
     of_map(&mut page, summary, speed);
     price(&mut page, summary, speed, picture.map(|p| Shown::of(&p, out)));
     page.section("cases", "Cases");
@@ -54,17 +53,6 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     page.facts(distinct(machines).into_iter().map(|machine| ("machine", machine)));
     page.table("Programs", programs(summary));
     Ok(page)
-}
-
-/// The table of the README.
-fn schemes(page: &mut Document) {
-    page.section("advice", "Which scheme to take");
-    let readme = in_repository("README.md", "README.md#which-scheme-to-take", "HEAD");
-    let Some(table) = advice() else {
-        return page.paragraph(Text::from("The table of ").then(readme).then(" is not available."));
-    };
-    page.table("Which scheme to take", table);
-    prose("advice").for_each(|text| page.note(Text::from("The table of ").then(readme.clone()).then(text)));
 }
 
 fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::error::ExitCode;
-use crate::report::scored::{Ours, json, text, verdict, write};
+use crate::report::scored::{beside, json, text, verdict, write};
 use crate::score::gate::Gate;
 use crate::study::judge::judge;
 
@@ -30,7 +30,7 @@ fn beam(level: &str, error: f64) -> (Answer, String) {
 }
 
 /// A manifest of the beam at three levels, with errors of the corner as shares of its deflection, and `change` of its text.
-fn levels(errors: [f64; 3], change: impl Fn(&mut Value)) -> Answer {
+pub(super) fn levels(errors: [f64; 3], change: impl Fn(&mut Value)) -> Answer {
     let result = Answer::exported("cantilever", "h0.1", &[]);
     let runs = LEVELS.iter().zip(errors).map(|(level, error)| {
         fs::create_dir(result.path(level)).unwrap();
@@ -99,7 +99,7 @@ fn the_worst_run_counts_and_is_named() {
     assert_eq!(gate.exit_code(&scores), ExitCode::TruthFailed);
     let said = verdict(&scores);
     assert!(said.contains("FAILED: 1 of 3 runs") && said.contains("run 3 (h0.025): FAILED: corner"), "{said}");
-    let ours = Ours::beside(&scores).unwrap();
+    let ours = beside(&scores).unwrap();
     let told = text(&scores, &ours);
     for part in ["cantilever run 1 (h0.1): my code", "run 3 (h0.025) together", "corner_error", "between", "falls"] {
         assert!(told.contains(part), "{part}: {told}");

@@ -1,19 +1,14 @@
-//! Duration of the free flight, until a function sees both discs.
+//! Two bodies that fly against each other along the diagonal, until a function of the grid sees both.
 
-use super::{Contact, Discs};
-use crate::exact::lattice::nodes;
-use crate::setup::Setup;
-use std::f64::consts::SQRT_2;
+use crate::lattice::nodes;
+use mpm_solvers::scheme::BasisName;
 
-/// Radius and centres (m) of the discs.
-pub(super) const RADIUS: f64 = 0.2;
-pub(super) const CENTRES: [[f64; 2]; 2] = [[0.2, 0.2], [0.8, 0.8]];
 /// Way in cells, along each axis, between two looks.
 const LOOK: f64 = 0.005;
 
-/// Columns of particles of a disc: positions and ends (cells).
-fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
-    let ends = disc.chunk_by(|[a, _], [b, _]| a == b).map(|column| {
+/// Columns of particles of a body: positions and ends (cells).
+fn columns(body: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
+    let ends = body.chunk_by(|[a, _], [b, _]| a == b).map(|column| {
         let ys = || column.iter().map(|[_, y]| y / h);
         let x = column[0][0] / h;
         let [low, high] = [ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max)];
@@ -22,20 +17,17 @@ fn columns(disc: &[[f64; 2]], h: f64) -> Vec<[[f64; 2]; 2]> {
     ends.collect()
 }
 
-/// The last look (s) before a node sees both discs, or the time (s) at which bodies can touch first, if that is within
-/// `duration` (s).
-pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
-    if setup.contact == Contact::Bodies {
-        // Domains of particles end half their distance beyond the rims, at most.
-        let way = (2.0 * RADIUS + setup.pitch()).powi(2) - setup.offset.powi(2);
-        let gap = (CENTRES[1][0] - CENTRES[0][0]) * SQRT_2 - way.max(0.0).sqrt();
-        return Some(gap / (2.0 * SQRT_2 * setup.speed)).filter(|time| way >= 0.0 && *time <= duration);
-    }
-    let (h, basis) = (setup.h, setup.basis());
-    let half_size = 0.5 / setup.ppc_per_direction as f64;
-    let places = setup.seed();
-    let (first, second) = places.split_at(places.len() / 2);
-    let [first, second] = [first, second].map(|disc| columns(disc, h));
+/// The last look (s) before a node sees both bodies, if that is within `duration` (s): their particles by columns (m), of which
+/// the first fly at `speed` (m/s) along both axes and the others against them; functions, cells of the size `h` (m), and half
+/// the size of particles (cells).
+#[must_use]
+pub fn until_met(
+    bodies: [&[[f64; 2]]; 2],
+    (basis, h, half_size): (BasisName, f64, f64),
+    speed: f64,
+    duration: f64,
+) -> Option<f64> {
+    let [first, second] = bodies.map(|body| columns(body, h));
     // Particles of a column stand so close that it sees all nodes between those that its ends see.
     let seen = |column: &[[f64; 2]; 2], way: f64| {
         column.map(|[low, high]| {
@@ -43,7 +35,7 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
             [from[0], to[1]]
         })
     };
-    let look = LOOK * h / setup.speed;
+    let look = LOOK * h / speed;
     let meet = |k: &u64| {
         let way = LOOK * *k as f64;
         let others: Vec<_> = second.iter().map(|column| seen(column, -way)).collect();
@@ -61,14 +53,19 @@ pub(super) fn until_met(setup: &Setup<Discs>, duration: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::lattice::support;
-    use crate::record::fixture::setup;
-    use crate::scheme::{BasisName, RemedyName, Scheme};
-    use crate::spec::Level;
+    use crate::lattice::support;
 
+    const RADIUS: f64 = 0.2;
+
+    /// Of two discs with centres 0.6 √2 m apart, that fly past each other at a distance of their lines.
     fn met(basis: BasisName, h: f64, offset: f64) -> Option<f64> {
-        let offset = format!("offset={offset}");
-        until_met(&setup(Scheme::flip(basis, RemedyName::None), Level { name: "", h }, &[&offset]), 95.0)
+        let (spacing, aside) = (0.5 * h, 0.5 * offset / 2f64.sqrt());
+        let along = (2.0 * RADIUS / spacing).round() as usize;
+        let lattice = (0..along * along).map(|k| [k / along, k % along].map(|k| (k as f64 + 0.5) * spacing));
+        let disc = lattice.filter(|[x, y]| (x - RADIUS).hypot(y - RADIUS) <= RADIUS);
+        let first: Vec<[f64; 2]> = disc.map(|[x, y]| [x + aside, y - aside]).collect();
+        let second: Vec<[f64; 2]> = first.iter().map(|[x, y]| [1.0 - x, 1.0 - y]).collect();
+        until_met([&first, &second], (basis, h, 0.25), 0.005, 95.0)
     }
 
     /// A function that sees both has a support of each within √2 of it, along the diagonal.

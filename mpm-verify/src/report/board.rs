@@ -1,0 +1,160 @@
+//! The board, told: a table a case, a summary, JSON, and the picture of error over cost.
+
+use super::prelude::*;
+use super::rows;
+use super::tables::RESULTS;
+use crate::draw::{ReferenceLine, Scale, draw_charts};
+use crate::score::board::{Line, Method, Standing, read};
+
+/// Longest name of a method in a legend.
+const LONGEST: usize = 48;
+/// Schemes of ours beside the others: standard MPM, the published F̄, and what we recommend.
+const OURS: [RemedyName; 3] = [RemedyName::None, RemedyName::FbarRecursive, RemedyName::FbarConsistent];
+
+/// The runs that are kept: in the working directory, or else in the checkout that the program was built from; none in
+/// neither.
+pub(super) fn kept() -> Result<Vec<Record>, Error> {
+    let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
+    let file = [PathBuf::from(RESULTS), built].into_iter().find(|file| file.exists());
+    file.map_or(Ok(Vec::new()), |file| Ok(rows::read(&file)?.iter().filter_map(rows::Row::record).collect()))
+}
+
+/// Our methods on a case by kept runs, those that stand for its own or any, as far as `which` takes them.
+pub(super) fn ours(
+    case: &Case,
+    kept: &[Record],
+    own: bool,
+    which: impl Fn(&Record) -> bool,
+) -> Result<Vec<Method>, Error> {
+    let records: Vec<Record> = kept.iter().filter(|r| r.case == case.name && r.status == Status::Ok).cloned().collect();
+    let of_case = if own { (case.own_runs)(&records) } else { records.iter().collect() };
+    let told: Vec<&Record> = of_case.into_iter().filter(|r| which(r)).collect();
+    let of = |scheme| {
+        let runs: Vec<&Record> = told.iter().copied().filter(|r| r.scheme() == scheme).collect();
+        Method::of_ours(case.name, &runs)
+    };
+    distinct(told.iter().map(|r| r.scheme())).into_iter().map(of).collect()
+}
+
+/// The methods in some folders, and ours on the same cases, from the rows that are kept.
+///
+/// # Errors
+/// As [`read`]; the file of rows is damaged.
+pub fn gather(folders: &[PathBuf]) -> Result<Vec<Method>, Error> {
+    among(folders, &kept()?)
+}
+
+/// The same with these kept runs.
+pub(super) fn among(folders: &[PathBuf], kept: &[Record]) -> Result<Vec<Method>, Error> {
+    let mut all = read(folders)?;
+    let is_told = |r: &Record| {
+        let usual = [BasisName::Gimp, BasisName::Bspline2].contains(&r.basis()) && OURS.contains(&r.remedy());
+        usual && [TransferName::Flip, TransferName::None].contains(&r.transfer())
+    };
+    for case in distinct(all.iter().map(|m| m.case)) {
+        all.extend(ours(cases::find(case)?, kept, true, is_told)?);
+    }
+    all.sort_by_key(|m| (m.case, m.standing, m.code.clone(), m.words.clone()));
+    Ok(all)
+}
+
+/// A row a run of the methods of a case.
+pub(super) fn lines(methods: &[Method]) -> Sheet {
+    let runs = || methods.iter().flat_map(|m| &m.runs);
+    let told = distinct(runs().flat_map(|line| &line.told).map(|(title, _)| &**title));
+    let head = ["code", "scheme", "level"].into_iter().chain(told.iter().copied());
+    let sheet = Sheet::new(head.chain(["error/tolerance", "CPU (s)", "ns", "verdict"]));
+    let row = |m: &Method, line: &Line| {
+        let of = |name: &str| line.told.iter().find(|told| told.0 == name).map_or(String::new(), |told| told.1.clone());
+        let verdict = match (line.why.is_empty(), line.standing) {
+            (true, Standing::Right) => "right".to_owned(),
+            (true, other) => other.name().to_owned(),
+            (false, other) => format!("{}: {}", other.name(), line.why),
+        };
+        let level = [std::slice::from_ref(&line.level), &line.set[..]].concat().join(" ");
+        let worst = line.worst.as_ref().map_or(String::new(), |(used, _)| fixed(2).text(*used));
+        let cells =
+            [&m.code, &m.words, &level].map(|text| inert(text)).into_iter().chain(told.iter().map(|name| of(name)));
+        cells
+            .chain([worst, seconds(line.cpu_s), line.ns.map_or(String::new(), |ns| fixed(0).text(ns)), inert(&verdict)])
+            .collect()
+    };
+    sheet.with(methods.iter().flat_map(|m| m.runs.iter().map(move |line| row(m, line))))
+}
+
+/// A text of the user's as it is in Markdown: no link, picture or mark comes of it.
+pub(super) fn inert(text: &str) -> String {
+    text.chars().flat_map(|c| if "\\`*[]!".contains(c) { vec!['\\', c] } else { vec![c] }).collect()
+}
+
+fn seconds(cpu_s: Option<f64>) -> String {
+    cpu_s.map_or(String::new(), |s| SHORT.text(s))
+}
+
+/// How every method stands, cases side by side.
+fn summary(methods: &[Method]) -> Sheet {
+    let row = |m: &Method| {
+        let dearest = m.runs.iter().filter_map(|line| line.cpu_s).max_by(f64::total_cmp);
+        let orders = m.orders.iter().map(|(metric, order)| format!("{metric} {}", fixed(1).text(*order)));
+        vec![
+            m.case.to_owned(),
+            inert(format!("{} {}", m.code, m.version).trim_end()),
+            inert(&m.words),
+            m.standing.name().to_owned(),
+            m.runs.iter().map(|line| &*line.level).collect::<Vec<_>>().join(", "),
+            orders.collect::<Vec<_>>().join(", "),
+            seconds(dearest),
+            inert(&m.note),
+        ]
+    };
+    Sheet::new(["case", "code", "scheme", "stands", "levels", "orders", "dearest, CPU (s)", "set-up"])
+        .with(methods.iter().map(row))
+}
+
+/// The summary, and the runs of every case, as tables by name.
+pub(super) fn tables(methods: &[Method]) -> Vec<(String, String)> {
+    let of = |case: &str| {
+        let own: Vec<Method> = methods.iter().filter(|m| m.case == case).cloned().collect();
+        (format!("board-{case}"), lines(&own).markdown())
+    };
+    let cases = distinct(methods.iter().map(|m| m.case));
+    std::iter::once(("board".to_owned(), summary(methods).markdown())).chain(cases.into_iter().map(of)).collect()
+}
+
+/// As Markdown.
+#[must_use]
+pub fn markdown(methods: &[Method]) -> String {
+    tables(methods).into_iter().map(|(name, table)| format!("## {name}\n\n{table}\n")).collect()
+}
+
+/// Writes `board.md`, `board.json` and `board.png`.
+///
+/// # Errors
+/// A file can't be written or drawn.
+pub fn write(methods: &[Method], folder: &Path) -> Result<(), Error> {
+    make_folder(folder)?;
+    write_json(&folder.join("board.json"), &json!({"schema": 1, "methods": methods}))?;
+    write_whole(&folder.join("board.md"), format!("# MPM codes side by side\n\n{}", markdown(methods)).as_bytes())?;
+    let codes = distinct(methods.iter().map(|m| &*m.code));
+    let chart = |case: &str| {
+        let mut chart = Chart::new(case, ["processor time (s)", "error over tolerance (–)"], Vec::new());
+        (chart.x_scale, chart.y_scale) = (Scale::Log10, Scale::Log10);
+        chart.reference_lines.push(ReferenceLine { name: "tolerance".to_owned(), value: 1.0, band: None });
+        for (k, m) in methods.iter().filter(|m| m.case == case).enumerate() {
+            let point = |line: &Line| Some((line.cpu_s?, line.worst.as_ref()?.0));
+            let points: Vec<(f64, f64)> = m.runs.iter().filter_map(point).collect();
+            let colour = codes.iter().position(|code| *code == m.code).unwrap_or_default();
+            let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
+            let name: String = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
+            let own = Series { name, points, colour, marker: markers[k % markers.len()], dash: Dash::Solid };
+            chart.series.extend(Some(own).filter(|s| !s.points.is_empty()));
+        }
+        chart
+    };
+    let charts: Vec<Chart> = distinct(methods.iter().map(|m| m.case)).into_iter().map(chart).collect();
+    let charts: Vec<Chart> = charts.into_iter().filter(|chart| !chart.series.is_empty()).collect();
+    if charts.is_empty() {
+        return Ok(());
+    }
+    Ok(draw_charts(&folder.join("board.png"), &charts, 2)?)
+}
