@@ -18,7 +18,7 @@ import numpy as np
 import taichi as ti
 
 source, out = map(Path, sys.argv[1:3])
-told = json.loads((source / "parameters.json").read_text())
+told = json.loads((source / "problem.json").read_text())
 case, h = told["case"], told["cell_size_m"]
 value = {p["name"]: p["value"] for p in told["parameters"]}
 head = (source / "start.csv").read_text().splitlines()[0].split(",")

@@ -1,10 +1,11 @@
 //! Where a lattice that is stretched loses its stiffness, where neighbours part, and how its stress is noisy until then.
 
 use crate::lattice::{force, nodes, symbol, transform};
-use mpm_core::Axis;
 use mpm_core::basis::{Basis, CubicBSpline, Gimp, Linear, QuadraticBSpline, WallTreatment};
+use mpm_core::material::NeoHookean;
+use mpm_core::{Axis, Law};
 use mpm_solvers::scheme::BasisName;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Matrix3};
 use std::f64::consts::TAU;
 
 /// Cells of the free part on each side of the middle.
@@ -17,6 +18,11 @@ const NEARBY: f64 = 1e-6;
 const BESIDE: usize = 4;
 /// The least mass of a node that counts, in that of a particle's volume.
 const SEEN: f64 = 1e-9;
+/// Steps of the stretch in which a prediction is looked for.
+const SCAN: f64 = 1e-3;
+const LOOK: f64 = 0.01;
+/// Relative step of a derivative.
+const STEP: f64 = 1e-5;
 /// Stiffness over mass below which it counts as negative.
 const ROUNDING: f64 = 1e-9;
 
@@ -105,5 +111,90 @@ impl Lattice {
             force(waves, &of_basis) / (2.0 * stiffness).sqrt()
         });
         answers.map(|a| a * a).sum::<f64>().sqrt()
+    }
+}
+
+/// A body of a lattice that is stretched alike everywhere, along as many axes as it has.
+#[derive(Clone, Copy)]
+pub struct Stretched {
+    /// Its law.
+    pub law: NeoHookean,
+    /// Its density (kg/m³).
+    pub density: f64,
+    /// Its dimension.
+    pub dimension: usize,
+    /// Functions and particles.
+    pub lattice: Lattice,
+    /// Cells of the undeformed body on each side of the middle.
+    pub half_length: f64,
+    /// Stretch at the end.
+    pub end: f64,
+}
+
+impl Stretched {
+    /// The exact stress (Pa), and the speed of waves (m/s).
+    pub fn state(&self, stretch: f64) -> [f64; 2] {
+        let mut f = Matrix3::identity();
+        for a in 0..self.dimension {
+            f[(a, a)] = stretch;
+        }
+        let (stress, state) = self.law.at_rest(&f);
+        let j = stretch.powi(self.dimension as i32);
+        let modulus = self.law.wave_modulus(j, &stress, &state);
+        [stress.get(0, 0), (modulus / self.density).sqrt()]
+    }
+
+    fn per_cell(&self) -> f64 {
+        0.5 / self.lattice.half_size
+    }
+
+    /// Places in cells of the particles of the undeformed body.
+    pub fn places(&self) -> Vec<f64> {
+        let count = (self.half_length * self.per_cell()) as i64;
+        (-count..count).map(|k| (k as f64 + 0.5) / self.per_cell()).collect()
+    }
+
+    fn places_at(&self, stretch: f64) -> Vec<f64> {
+        self.places().iter().map(|x| x * stretch).collect()
+    }
+
+    fn stretches(&self, step: f64) -> impl Iterator<Item = f64> {
+        let whole = self.end - 1.0;
+        let count = (whole.abs() / step).ceil();
+        (0..=count as u64).map(move |k| 1.0 + whole * k as f64 / count)
+    }
+
+    /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
+    pub fn unstable(&self) -> Option<f64> {
+        // Slopes that jump have a curvature somewhere, and none elsewhere; in the plane nothing is foretold.
+        if self.lattice.basis == BasisName::Linear || self.dimension > 1 {
+            return None;
+        }
+        let stress = |stretch: f64| self.state(stretch)[0];
+        self.stretches(LOOK).find(|stretch| {
+            let rise = stress(stretch * (1.0 + STEP)) - stress(stretch * (1.0 - STEP));
+            let axial = stress(*stretch) + rise / (2.0 * STEP);
+            self.lattice.is_unstable(&self.places_at(*stretch), axial, stress(*stretch))
+        })
+    }
+
+    /// The first stretch at which the exact places leave neighbours without a common node.
+    pub fn parting(&self) -> Option<f64> {
+        self.stretches(SCAN).find(|stretch| self.lattice.parted(self.places_at(*stretch)))
+    }
+
+    /// The most of the noise that is foretold up to a stretch. In the plane there are waves along either axis, whose
+    /// stress across is no more than that along.
+    pub fn noise(&self, end: f64) -> f64 {
+        let each = self.stretches(LOOK).take_while(|s| (s - 1.0).abs() <= (end - 1.0).abs());
+        let most = each.map(|s| self.lattice.noise(self.per_cell() / s)).fold(0.0, f64::max);
+        most * (self.dimension as f64).sqrt()
+    }
+
+    /// The first stretch at which the fastest particle and the waves of the exact state pass a cell of the size `h` (m) in a
+    /// step of `dt` (s); the stretch has a `rate` (1/s).
+    pub fn stop(&self, rate: f64, dt: f64, h: f64) -> Option<f64> {
+        let ends = self.places().last().map_or(0.0, |x| x * h) * rate.abs();
+        self.stretches(SCAN).find(|stretch| (self.state(*stretch)[1] + ends) * dt > h)
     }
 }

@@ -46,7 +46,7 @@ impl Standing {
     }
 
     /// That of a method by those of its runs, and whether its runs together fail a check.
-    fn over(runs: &[Self], together: bool) -> Self {
+    pub(super) fn over(runs: &[Self], together: bool) -> Self {
         let count = |own: Self| runs.iter().filter(|run| **run == own).count();
         match (count(Self::Right), runs.len()) {
             (right, all) if right == all && all > 1 && !together => Self::RightOnAll,

@@ -11,6 +11,8 @@ use std::fmt::Write;
 
 /// The problems in words, a section a case.
 const PROBLEMS: &str = include_str!("../../assets/problems.md");
+/// The same for programs, of some cases: grid, body, supports, law, loads. Texts in the place of numbers are parameters.
+const DATA: &str = include_str!("../../assets/problems.json");
 /// File of the particles before anything moves.
 const START: &str = "start.csv";
 
@@ -29,7 +31,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     let columns = start.into_iter().map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns).write(&folder.join(START))?;
     let discretisation = (foreign.discretisation)(spec, &parameters)?;
-    write_json(&folder.join("parameters.json"), &described(case, spec, &parameters, discretisation.dim))?;
+    write_json(&folder.join("problem.json"), &described(case, spec, &parameters, discretisation.dim))?;
     let demands = demands(case, foreign, Record::blank(case.name, spec, &parameters, discretisation, 0));
     let header = ["check", "metric", "unit", "reference", "tolerance", "why"].map(str::to_owned);
     let number = |x: Option<f64>| x.map_or(String::new(), |x| x.to_string());
@@ -42,7 +44,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     });
     write_csv(&folder.join("reference.csv"), &header, rows)?;
     let curves = (foreign.curves)(&parameters);
-    let mut files = vec![START, "parameters.json", "reference.csv"];
+    let mut files = vec![START, "problem.json", "reference.csv"];
     for (name, columns) in curves {
         Table::of_columns(columns).write(&folder.join(name))?;
         files.push(name);
@@ -74,6 +76,7 @@ fn described(case: &Case, spec: &RunSpec, parameters: &Parameters, dimension: us
         "cell_size_m": spec.level.h,
         "dimension": dimension,
         "setup": words(case.name),
+        "problem": serde_json::from_str::<Value>(DATA).map_or(Value::Null, |all| all[case.name].clone()),
         "parameters": told.collect::<Value>(),
     })
 }
@@ -136,7 +139,7 @@ fn readme(
             START => {
                 "the particles of our runs before anything moves; yours may start elsewhere unless it is said above"
             }
-            "parameters.json" => "parameters with values, units and meanings",
+            "problem.json" => "the problem as data, and parameters with values, units and meanings",
             "reference.csv" => "what the checks demand: reference ± tolerance, or a bound",
             _ => "the reference as a curve",
         };

@@ -213,9 +213,9 @@ fn what_a_manifest_names_is_refused_by_its_key() {
 #[test]
 fn what_is_exported_is_the_problem() {
     let result = Answer::of_column();
-    let names = ["start.csv", "parameters.json", "reference.csv", CURVE, FILE, "README.md"];
+    let names = ["start.csv", "problem.json", "reference.csv", CURVE, FILE, "README.md"];
     assert_eq!(result.files, names);
-    let problem = result.json("parameters.json");
+    let problem = result.json("problem.json");
     assert_eq!((&problem["case"], &problem["level"]), (&json!("consolidation"), &json!("n8")));
     assert_eq!((&problem["cell_size_m"], &problem["dimension"]), (&json!(0.125), &json!(1)));
     let load = problem["parameters"].as_array().unwrap();
@@ -236,7 +236,7 @@ fn what_is_exported_is_the_problem() {
         "Cells of 0.125 m.",
         "| `load` | 0.3 |",
         "- `start.csv`: the particles of our runs before anything moves",
-        "- `parameters.json`: parameters with values, units and meanings",
+        "- `problem.json`: the problem as data, and parameters with values, units and meanings",
         "- `reference.csv`: what the checks demand",
         "- `reference-curve.csv`: the reference as a curve",
         "- `score.json`: a form to fill in",
@@ -273,7 +273,7 @@ fn a_form_is_not_overwritten() {
     let spec = spec((foreign.judged_as)(BasisName::Bspline2), find_level(case, "h2").unwrap(), &[]);
     let said = export::export(case, foreign, &spec, &result.path("")).unwrap_err().to_string();
     assert!(said.contains("score.json: it is there") && said.contains("allowed: a folder without it"), "{said}");
-    assert_eq!((result.text(FILE), result.json("parameters.json")["case"].clone()), (before, json!("consolidation")));
+    assert_eq!((result.text(FILE), result.json("problem.json")["case"].clone()), (before, json!("consolidation")));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::cases::build::{DENSITY, YOUNG_MODULUS};
-use crate::exact::stretched_lattice::Lattice;
+use crate::exact::stretched_lattice::{Lattice, Stretched};
 use mpm_core::stage::Constraint;
 use mpm_core::{Frame, Memoryless};
 
@@ -10,11 +10,6 @@ use mpm_core::{Frame, Memoryless};
 const HELD: usize = 2;
 /// The share of its exact value below which the mean stress of the free part says that it has torn.
 const TORN: f64 = 0.5;
-/// Steps of the stretch in which a prediction is looked for.
-const SCAN: f64 = 1e-3;
-const LOOK: f64 = 0.01;
-/// Relative step of a derivative.
-const STEP: f64 = 1e-5;
 
 /// Observations: stretches at which the free part tore, neighbours lost their last common node, and the program stopped.
 #[derive(Default, Clone, Serialize, Deserialize)]
@@ -65,10 +60,17 @@ impl<const D: usize> Constraint<D> for Held<D> {
 }
 
 impl Stretching {
-    /// Cells of the undeformed body on each side of the middle.
-    fn half_length(&self) -> f64 {
+    /// The body as it should be stretched.
+    fn exact(&self) -> Stretched {
         let covers = (FREE + HELD) as f64 / self.setup.end.min(1.0);
-        covers.ceil()
+        Stretched {
+            law: self.law,
+            density: DENSITY,
+            dimension: self.setup.dimension,
+            lattice: Lattice { basis: self.setup.basis(), half_size: 0.5 / self.setup.ppc_per_direction as f64 },
+            half_length: covers.ceil(),
+            end: self.setup.end,
+        }
     }
 
     /// The stretch of what is held: that of the last particle.
@@ -78,75 +80,10 @@ impl Stretching {
         last.map_or(f64::NAN, |(_, j)| j.powf((D as f64).recip()))
     }
 
-    /// The exact stress (Pa), and the speed of waves (m/s).
-    fn state(&self, stretch: f64) -> [f64; 2] {
-        let mut f = Matrix3::identity();
-        for a in 0..self.setup.dimension {
-            f[(a, a)] = stretch;
-        }
-        let (stress, state) = self.law.at_rest(&f);
-        let j = stretch.powi(self.setup.dimension as i32);
-        let modulus = self.law.wave_modulus(j, &stress, &state);
-        [stress.get(0, 0), (modulus / DENSITY).sqrt()]
-    }
-
-    fn lattice(&self) -> Lattice {
-        Lattice { basis: self.setup.basis(), half_size: 0.5 / self.setup.ppc_per_direction as f64 }
-    }
-
-    /// Places in cells of the particles of the undeformed body.
-    fn places(&self) -> Vec<f64> {
-        let n = self.setup.ppc_per_direction as f64;
-        let count = (self.half_length() * n) as i64;
-        (-count..count).map(|k| (k as f64 + 0.5) / n).collect()
-    }
-
-    fn stretches(&self, step: f64) -> impl Iterator<Item = f64> {
-        let whole = self.setup.end - 1.0;
-        let count = (whole.abs() / step).ceil();
-        (0..=count as u64).map(move |k| 1.0 + whole * k as f64 / count)
-    }
-
-    /// The exact places (cells) at a stretch.
-    fn places_at(&self, stretch: f64) -> Vec<f64> {
-        self.places().iter().map(|x| x * stretch).collect()
-    }
-
-    /// The first stretch at which a wave of the free nodes has a negative stiffness in the exact state.
-    fn unstable(&self) -> Option<f64> {
-        // Slopes that jump have a curvature somewhere, and none elsewhere; in the plane nothing is foretold.
-        if self.setup.basis() == Linear || self.setup.dimension > 1 {
-            return None;
-        }
-        let lattice = self.lattice();
-        let stress = |stretch: f64| self.state(stretch)[0];
-        self.stretches(LOOK).find(|stretch| {
-            let rise = stress(stretch * (1.0 + STEP)) - stress(stretch * (1.0 - STEP));
-            let axial = stress(*stretch) + rise / (2.0 * STEP);
-            lattice.is_unstable(&self.places_at(*stretch), axial, stress(*stretch))
-        })
-    }
-
-    /// The most of the noise that is foretold up to a stretch. In the plane there are waves along either axis, whose
-    /// stress across is no more than that along.
-    fn predicted_noise(&self, end: f64) -> f64 {
-        let lattice = self.lattice();
-        let per_cell = self.setup.ppc_per_direction as f64;
-        let each = self.stretches(LOOK).take_while(|s| (s - 1.0).abs() <= (end - 1.0).abs());
-        each.map(|s| lattice.noise(per_cell / s)).fold(0.0, f64::max) * (self.setup.dimension as f64).sqrt()
-    }
-
-    /// The first stretch at which the fastest particle and the waves of the exact state pass a cell in a step.
-    fn predicted_stop(&self) -> Option<f64> {
-        let h = self.setup.h;
-        let ends = self.places().last().map_or(0.0, |x| x * h) * self.rate.abs();
-        self.stretches(SCAN).find(|stretch| (self.state(*stretch)[1] + ends) * self.dt > h)
-    }
-
     /// Mean over the free part of the stress over the exact one, and rms of what it differs from one by; of a free part
     /// without particles that of no stress.
     fn stresses<const D: usize>(&self, run: &mut dyn Simulation<D>) -> [f64; 2] {
-        let exact = self.state(Self::stretch::<D>(run))[0];
+        let exact = self.exact().state(Self::stretch::<D>(run))[0];
         let stress = run.force_stress();
         let end = FREE as f64 * self.setup.h;
         let free = run.particles().position.iter().zip(&stress).filter(|(x, _)| x.iter().all(|x| x.abs() < end));
@@ -184,13 +121,13 @@ impl<const D: usize> Problem<D> for Stretching {
     fn begin(&self, _: &Observed) -> Begun<D> {
         let h = self.setup.h;
         let size = h / self.setup.ppc_per_direction as f64;
-        let along = |_| self.places().iter().map(|x| x * h).collect();
+        let along = |_| self.exact().places().iter().map(|x| x * h).collect();
         let places = self.setup.start_at(lattice(std::array::from_fn(along)));
         let mut particles = Particles::new(places, size.powi(D as i32), DENSITY, [0.5 * size; D])?;
         for (v, x) in particles.velocity.iter_mut().zip(&particles.reference) {
             *v = x.map(|x| self.rate * x);
         }
-        let longest = self.half_length() * self.setup.end.max(1.0);
+        let longest = self.exact().half_length * self.setup.end.max(1.0);
         let room = longest as usize + HELD;
         let grid = Grid::new(h, [Axis::open(-(room as f64) * h, 2 * room); D])?;
         let held = Held { middle: [0.0; D], beyond: FREE as f64 * h, rate: self.rate };
@@ -210,7 +147,7 @@ impl<const D: usize> Problem<D> for Stretching {
         }
         let [mean, error] = self.stresses(phase.run.as_mut());
         let h = self.setup.h;
-        let apart = self.lattice().parted(phase.run.particles().position.iter().map(|x| x[0] / h).collect());
+        let apart = self.exact().lattice.parted(phase.run.particles().position.iter().map(|x| x[0] / h).collect());
         seen.kept = mean;
         seen.errors.push([stretch, error]);
         if mean < TORN {
@@ -239,11 +176,10 @@ impl<const D: usize> Problem<D> for Stretching {
     }
 
     fn metrics(&self, seen: &Observed, _: &mut Phase<D>) -> Vec<(Metric, f64)> {
-        let unstable = self.unstable();
-        // Where the exact places leave neighbours without a common node.
-        let parting = self.stretches(SCAN).find(|s| self.lattice().parted(self.places_at(*s)));
+        let exact = self.exact();
+        let (unstable, parting) = (exact.unstable(), exact.parting());
         let end = unstable.or(parting).unwrap_or(self.setup.end);
-        let predicted = self.predicted_noise(end);
+        let predicted = exact.noise(end);
         let unstable = unstable.map(|s| s * (1.0 - SWING * predicted));
         let end = unstable.unwrap_or(end);
         let sound = |s: f64| (s - 1.0).abs() < (end - 1.0).abs();
@@ -255,7 +191,7 @@ impl<const D: usize> Problem<D> for Stretching {
             (UNSTABLE_STRETCH, unstable),
             (PREDICTED_TEAR_STRETCH, parting),
             (STOPPED_STRETCH, seen.stopped),
-            (PREDICTED_STOP_STRETCH, self.predicted_stop().filter(|_| stops)),
+            (PREDICTED_STOP_STRETCH, exact.stop(self.rate, self.dt, self.setup.h).filter(|_| stops)),
             (STRESS_NOISE, Some(errors.map(|[_, e]| *e).fold(0.0, f64::max))),
             (PREDICTED_NOISE, Some(predicted)),
             (STRESS_KEPT, Some(seen.kept)),

@@ -22,32 +22,40 @@ fn beam(errors: [f64; 3], more: impl Fn(usize, &mut Value)) -> Answer {
     })
 }
 
-/// Only the deflection of the corner is given: the stress stays open.
 #[test]
 fn a_method_is_right_only_where_all_its_levels_are() {
-    let all = |_: usize, _: &mut Value| ();
-    for (errors, standing) in [
-        ([4e-3, 1e-3, 2.5e-4], Standing::RightOnAll),
-        // The errors do not fall, which the runs together are asked for.
-        ([1e-3, 2e-3, 4e-4], Standing::Right),
-        ([4e-3, 1e-3, 0.5], Standing::Right),
-        ([0.5, 0.5, 0.5], Standing::Wrong),
+    use Standing::{BrokeDown, NotJudged, NotPossible, Right, RightOnAll, Wrong};
+    for (runs, together, standing) in [
+        (&[Right, Right][..], false, RightOnAll),
+        // Right by themselves, and their errors do not fall.
+        (&[Right, Right], true, Right),
+        (&[Right], false, Right),
+        (&[Right, Wrong], false, Right),
+        (&[Right, NotJudged], false, Right),
+        (&[Wrong, BrokeDown], false, Wrong),
+        (&[BrokeDown, NotJudged], false, BrokeDown),
+        (&[NotPossible], false, NotPossible),
+        (&[], false, NotJudged),
     ] {
-        let methods = board(&beam(errors, all)).unwrap();
-        assert_eq!((methods.len(), methods[0].standing), (1, standing), "{errors:?} {:?}", methods[0]);
+        assert_eq!(Standing::over(runs, together), standing, "{runs:?} {together}");
     }
-    // One level alone is not all of them.
-    let alone = beam([4e-3, 1e-3, 2.5e-4], all);
-    alone.edit(|manifest| manifest["runs"].as_array_mut().unwrap().truncate(1));
-    assert_eq!(board(&alone).unwrap()[0].standing, Standing::Right);
-    let right = &board(&beam([4e-3, 1e-3, 2.5e-4], all)).unwrap()[0];
+}
+
+/// Only the deflection of the corner is given: the stress stays open.
+#[test]
+fn a_method_shows_its_errors_over_tolerance_and_its_orders() {
+    let method = |errors| board(&beam(errors, |_, _| ())).unwrap().remove(0);
+    let right = method([4e-3, 1e-3, 2.5e-4]);
+    assert_eq!((right.standing, &*right.runs[0].why), (Standing::NotJudged, "stress"));
     assert_eq!(right.runs.iter().map(|run| &*run.level).collect::<Vec<_>>(), ["h0.1", "h0.05", "h0.025"]);
     let order = right.orders.iter().find(|(name, _)| name == "corner_error").unwrap().1;
     assert!((order - 2.0).abs() < 1e-6, "{order}");
-    // Error over tolerance is told on both sides of one.
-    let used = |errors| board(&beam(errors, all)).unwrap()[0].runs[2].worst.clone().unwrap();
+    // On both sides of one.
+    let used = |errors| method(errors).runs[2].worst.clone().unwrap();
     assert!(used([4e-3, 1e-3, 2.5e-4]).0 < 1.0 && used([4e-3, 1e-3, 0.5]).0 > 1.0);
     assert_eq!(used([4e-3, 1e-3, 0.5]).1, "corner");
+    let wrong = method([0.5; 3]);
+    assert_eq!((wrong.standing, &*wrong.runs[2].why), (Standing::Wrong, "corner"));
 }
 
 #[test]
@@ -63,7 +71,7 @@ fn what_did_not_finish_is_told_apart_from_what_is_wrong() {
     };
     for (status, standing) in [("broke down", Standing::BrokeDown), ("not possible", Standing::NotPossible)] {
         let method = ended(status);
-        assert_eq!((method.standing, method.runs[2].standing), (Standing::Right, standing));
+        assert_eq!((method.runs[0].standing, method.runs[2].standing), (Standing::NotJudged, standing));
         assert_eq!(method.runs[2].why, "an element was inverted");
         assert!(method.runs[2].worst.is_none());
     }
@@ -142,4 +150,64 @@ fn ours_are_judged_by_the_same_rule() {
     let locked = ours(crate::scheme::RemedyName::None, -0.06);
     assert_eq!((locked.standing, locked.code.as_str()), (Standing::Wrong, "this program"));
     assert!(locked.runs[0].why.contains("mid-edge"), "{:?}", locked.runs);
+}
+
+/// Templates with nothing of a code in them: their results are read, and wrong.
+#[test]
+fn the_templates_give_results_that_are_read() {
+    let templates = Path::new(env!("CARGO_MANIFEST_DIR")).join("codes/template");
+    let result = Answer::exported("cook", "h2", &[]);
+    let out = result.path("");
+    let ran = |program: &str, arguments: &[&Path]| {
+        std::process::Command::new(program).args(arguments).status().ok().map(|status| status.success())
+    };
+    let binary = result.folder.path().join("template");
+    let compiled = ran("g++", &["-std=c++17".as_ref(), &templates.join("template.cpp"), "-o".as_ref(), &binary]);
+    let runs = [
+        ran("python3", &[&templates.join("template.py"), &out]),
+        compiled.and_then(|_| ran(&binary.to_string_lossy(), &[&out, "2.0".as_ref()])),
+    ];
+    for (k, _) in runs.iter().enumerate().filter(|(_, ran)| ran.is_some()) {
+        assert_eq!(runs[k], Some(true), "template {k}");
+    }
+    if runs.iter().any(Option::is_some) {
+        let methods = board(&result).unwrap();
+        assert_eq!((methods[0].code.as_str(), methods[0].standing), ("my code", Standing::Wrong));
+    }
+}
+
+/// A text that stands for a number is the name of a parameter, with a sign or a factor.
+#[test]
+fn problems_as_data_name_parameters_of_their_case() {
+    let all: BTreeMap<String, Value> = serde_json::from_str(include_str!("../../../assets/problems.json")).unwrap();
+    assert!(all.len() > 5);
+    for (name, problem) in all {
+        let (case, foreign) = find_scored(&name).unwrap();
+        let result = Answer::exported(&name, case.levels[0].name, &[]);
+        assert_eq!(result.json("problem.json")["problem"], problem);
+        let is_known = |text: &str| {
+            let word = text.trim_start_matches(|c: char| c == '-' || c.is_ascii_digit() || ". ".contains(c));
+            case.parameters.iter().any(|p| p.name == word)
+        };
+        let texts = |value: &Value| {
+            let mut open = vec![value.clone()];
+            let mut found = Vec::new();
+            while let Some(value) = open.pop() {
+                match value {
+                    Value::String(text) => found.push(text),
+                    Value::Array(all) => open.extend(all),
+                    Value::Object(all) => open.extend(all.into_iter().map(|(_, value)| value)),
+                    _ => {}
+                }
+            }
+            found
+        };
+        let body = &problem["body"];
+        let numbers = [&problem["grid"], &body["polygon_m"], &body["segment_m"], &problem["law"]["parameters"]];
+        for text in numbers.into_iter().flat_map(texts) {
+            assert!(is_known(&text), "{name}: {text}");
+        }
+        let demanded = texts(&problem["demanded"]);
+        assert!(foreign.parts().iter().any(|part| demanded.iter().any(|d| d == part.name())), "{name}");
+    }
 }

@@ -199,7 +199,7 @@ fn a_wave_is_judged_of_rows_that_show_its_periods() {
 
 /// Kinetic energy (J) of the bar at its start, ¼ ρ ω² A² L.
 fn kinetic_energy(of: &Answer) -> f64 {
-    let parameters = of.json("parameters.json")["parameters"].clone();
+    let parameters = of.json("problem.json")["parameters"].clone();
     let value = |name: &str| {
         let own = parameters.as_array().unwrap().iter().find(|p| p["name"] == name);
         own.unwrap()["value"].as_f64().unwrap()

@@ -48,7 +48,7 @@ fn every_problem_has_its_words_and_measures_what_is_wanted() {
     for (case, foreign) in cases::scored() {
         let level = case.levels[0].name;
         let result = Answer::exported(case.name, level, &[]);
-        let words = result.json("parameters.json")["setup"].clone();
+        let words = result.json("problem.json")["setup"].clone();
         assert!(words.as_array().unwrap().len() > 2, "{}", case.name);
         let start = Table::read(&result.path("start.csv")).unwrap();
         let known = |name: &str| {
