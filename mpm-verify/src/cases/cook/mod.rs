@@ -153,6 +153,7 @@ fn plan() -> Plan {
     let averaged = [Gimp, Bspline2].map(|basis| of_static(basis, FbarConsistent));
     let statics = [Gimp, Bspline2].map(|basis| [none, FbarConsistent].map(|r| of_static(basis, r)));
     let ratios = ["poisson_ratio=0.3", "poisson_ratio=0.49", "poisson_ratio=0.4999"];
+    let musl = [Scheme::explicit(Gimp, none, TransferName::Musl)];
     // Loads under which explicit bodies leave the grid, in as many steps, with functions of the rim held.
     let large_loads = [(10, 5), (20, 8), (30, 12), (40, 16)];
     // CFL numbers other than the case's own are near the limit of each scheme, on which the state of rest hardly depends.
@@ -165,6 +166,8 @@ fn plan() -> Plan {
         .runs(Pr, "h1", &quadratic(&[none]), "")
         .runs(Pr, "h1", &gimp(&[FbarConsistent]), "cfl=0.6")
         .runs(Nightly, "h2 h1", &every, "")
+        .runs(Pr, "h2", &musl, "")
+        .runs(Nightly, "h1", &musl, "")
         .runs(Nightly, "h0.5 h0.25", &gimp(&[none]), "cfl=0.45")
         .runs(Nightly, "h0.5 h0.25", &quadratic(&[none]), "cfl=0.6")
         .runs(Nightly, "h0.5", &two(&[FbarRate]), "cfl=0.6")

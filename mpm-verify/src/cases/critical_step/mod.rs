@@ -85,7 +85,7 @@ fn plan() -> Plan {
         .runs(Pr, "n6", &all, "")
         .each(Pr, "n6", &flip, ["dimension=1", "dimension=1 layout=jittered"])
         .each(Pr, "n6", &plain, ["dimension=1 layout=cut", "cut=0.001 dimension=1 layout=cut"])
-        .each(Pr, "n6", &flip, ["dimension=1 stretch=0.7", "dimension=1 stretch=1.4"])
+        .each(Nightly, "n6", &flip, ["dimension=1 stretch=0.7", "dimension=1 stretch=1.4"])
         .runs(Nightly, "n6", &all, "layout=jittered")
         .runs(Nightly, "n6", &plain, "layout=cut")
         .runs(Nightly, "n6", &space, "dimension=3")

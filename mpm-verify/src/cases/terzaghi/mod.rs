@@ -80,8 +80,8 @@ fn plan() -> Plan {
         .runs(Pr, "n160", &linear, "first_step=1.024 steps=1")
         .runs(Nightly, "n20", &linear, "first_step=0.016 steps=80 time_end=1")
         .runs(Nightly, "n160", &linear, "first_step=1.024 steps=80 time_end=1")
-        .each(Pr, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
-        .each(Pr, "n20", &linear[2..], SHARES.map(|r| format!("projection=0.1 first_step={r} steps=1")))
+        .each(Nightly, "n20", &linear, SHARES.map(|r| format!("first_step={r} steps=1")))
+        .each(Nightly, "n20", &linear[2..], SHARES.map(|r| format!("projection=0.1 first_step={r} steps=1")))
         .each(Nightly, "n20", &gimp, SHARES.map(|r| format!("first_step={r} steps=1")))
         .each(Pr, "n80", &linear, [5, 10, 20, 80].map(|n| format!("steps={n}")))
 }
