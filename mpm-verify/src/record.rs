@@ -48,7 +48,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// What another code says of its own run.
+    /// The failure that another code reports of its own run.
     pub(crate) fn told(message: String) -> Self {
         Self { kind: "told".to_owned(), time: f64::NAN, step: 0, particle: 0, value: None, message }
     }

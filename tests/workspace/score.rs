@@ -240,7 +240,7 @@ fn a_result_stands_beside_ours() {
         assert!(said.contains(named), "{named}: {said}");
     }
     let page = fs::read_to_string(out.join("score.md")).unwrap();
-    assert!(page.contains("| gimp none |"), "{page}");
+    assert!(page.contains("| this program | gimp none |"), "{page}");
     let found = json(&out.join("verdicts.json"));
     assert_eq!(found["exit_code"], 0);
     assert!(!found["ours"].as_array().unwrap().is_empty());

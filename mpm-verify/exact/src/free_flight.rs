@@ -57,7 +57,7 @@ mod tests {
 
     const RADIUS: f64 = 0.2;
 
-    /// Of two discs with centres 0.6 √2 m apart, that fly past each other at a distance of their lines.
+    /// The time of two discs with centres 0.6 √2 m apart, that fly past each other at a distance of their lines.
     fn met(basis: BasisName, h: f64, offset: f64) -> Option<f64> {
         let (spacing, aside) = (0.5 * h, 0.5 * offset / 2f64.sqrt());
         let along = (2.0 * RADIUS / spacing).round() as usize;

@@ -10,7 +10,7 @@ const SLICES: usize = 1000;
 /// Relative step of derivatives.
 const STEP: f64 = 1e-4;
 
-/// What the front leaves behind it.
+/// The state behind the front.
 #[derive(Debug, Clone, Copy)]
 pub struct Jump {
     /// Stretch.

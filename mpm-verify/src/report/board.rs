@@ -1,10 +1,9 @@
 //! The board, told: a table a case, a summary, JSON, and the picture of error over cost.
 
 use super::prelude::*;
-use super::rows;
-use super::tables::RESULTS;
+use super::rows::{self, RESULTS};
 use crate::draw::{ReferenceLine, Scale, draw_charts};
-use crate::score::board::{Line, Method, Standing, read};
+use crate::score::board::{Line, Method, OWN, Standing, read};
 
 /// Longest name of a method in a legend.
 const LONGEST: usize = 48;
@@ -58,28 +57,28 @@ pub(super) fn among(folders: &[PathBuf], kept: &[Record]) -> Result<Vec<Method>,
     Ok(all)
 }
 
-/// A row a run of the methods of a case.
-pub(super) fn lines(methods: &[Method]) -> Sheet {
-    let runs = || methods.iter().flat_map(|m| &m.runs);
-    let told = distinct(runs().flat_map(|line| &line.told).map(|(title, _)| &**title));
-    let head = ["code", "scheme", "level"].into_iter().chain(told.iter().copied());
-    let sheet = Sheet::new(head.chain(["error/tolerance", "CPU (s)", "ns", "verdict"]));
-    let row = |m: &Method, line: &Line| {
+/// A row a run of the methods of a case: in full, or what tells runs of one level apart.
+pub(super) fn lines(methods: &[Method], full: bool) -> Sheet {
+    let runs = || methods.iter().flat_map(|m| m.runs.iter().map(move |line| (m, line)));
+    let told = distinct(runs().flat_map(|(_, line)| &line.told).map(|(title, _)| &**title));
+    let cells = |(m, line): (&Method, &Line)| {
         let of = |name: &str| line.told.iter().find(|told| told.0 == name).map_or(String::new(), |told| told.1.clone());
-        let verdict = match (line.why.is_empty(), line.standing) {
-            (true, Standing::Right) => "right".to_owned(),
-            (true, other) => other.name().to_owned(),
-            (false, other) => format!("{}: {}", other.name(), line.why),
-        };
+        let standing = if line.standing == Standing::Right { "right" } else { line.standing.name() };
+        let why = if line.why.is_empty() || !full { String::new() } else { format!(": {}", line.why) };
         let level = [std::slice::from_ref(&line.level), &line.set[..]].concat().join(" ");
         let worst = line.worst.as_ref().map_or(String::new(), |(used, _)| fixed(2).text(*used));
-        let cells =
-            [&m.code, &m.words, &level].map(|text| inert(text)).into_iter().chain(told.iter().map(|name| of(name)));
-        cells
-            .chain([worst, seconds(line.cpu_s), line.ns.map_or(String::new(), |ns| fixed(0).text(ns)), inert(&verdict)])
-            .collect()
+        let ns = line.ns.map_or(String::new(), |ns| fixed(0).text(ns));
+        let words = if full || m.code == OWN { &m.words } else { "" };
+        let before = [(true, "code", inert(&m.code)), (true, "scheme", inert(words)), (full, "level", inert(&level))];
+        let errors = told.iter().map(|title| (true, *title, of(title)));
+        let cost = [(true, "CPU (s)", seconds(line.cpu_s)), (full, "ns", ns)];
+        let all = before.into_iter().chain(errors).chain([(true, "error/tolerance", worst)]).chain(cost);
+        let all = all.chain([(true, "verdict", inert(&format!("{standing}{why}")))]);
+        all.filter(|(shown, ..)| *shown).map(|(_, title, text)| (title.to_owned(), text)).unzip()
     };
-    sheet.with(methods.iter().flat_map(|m| m.runs.iter().map(move |line| row(m, line))))
+    let rows: Vec<(Vec<String>, Vec<String>)> = runs().map(cells).collect();
+    let head = rows.first().map_or(Vec::new(), |(head, _)| head.clone());
+    Sheet::new(head).with(rows.into_iter().map(|(_, row)| row))
 }
 
 /// A text of the user's as it is in Markdown: no link, picture or mark comes of it.
@@ -115,7 +114,7 @@ fn summary(methods: &[Method]) -> Sheet {
 pub(super) fn tables(methods: &[Method]) -> Vec<(String, String)> {
     let of = |case: &str| {
         let own: Vec<Method> = methods.iter().filter(|m| m.case == case).cloned().collect();
-        (format!("board-{case}"), lines(&own).markdown())
+        (format!("board-{case}"), lines(&own, true).markdown())
     };
     let cases = distinct(methods.iter().map(|m| m.case));
     std::iter::once(("board".to_owned(), summary(methods).markdown())).chain(cases.into_iter().map(of)).collect()

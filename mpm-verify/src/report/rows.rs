@@ -5,6 +5,8 @@ use crate::check::Finding;
 use crate::files::{read_rows, rows_text};
 use crate::record::{BREAKS_DOWN, Discretisation, Failure, Measured, Timing, Version, WorkDone};
 
+/// File of the rows, from the root.
+pub(super) const RESULTS: &str = "reports/nightly/results.csv";
 /// How the status of a run that broke down begins; the time follows.
 const BROKE: &str = "failed at ";
 /// Separator between the time and the kind of an error.

@@ -94,7 +94,7 @@ fn of_run(scored: &Scored, lines: &[Method]) -> String {
     let mut t = wrapped(&title(scored), "", "  ") + "\n";
     t += &found(scored.case, record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
-    let _ = writeln!(t, "\n{}", aligned(board::lines(lines)));
+    let _ = writeln!(t, "\n{}", aligned(board::lines(lines, false)));
     t + if scored.manifest.run > 0 { "\n" } else { "" }
 }
 
@@ -141,7 +141,7 @@ pub fn write(scores: &Scores, lines: &[Vec<Method>], gate: &Gate, folder: &Path)
     for (run, lines) in scores.runs.iter().zip(lines) {
         document.section("", board::inert(&title(run)));
         document.paragraph(sentence(&run.record) + ".");
-        document.table("", board::lines(lines));
+        document.table("", board::lines(lines, false));
         document.table("", verdicts::table(run.record.verdicts.iter().map(|v| (None, v))));
         notes(run).iter().for_each(|note| document.paragraph(board::inert(note)));
     }

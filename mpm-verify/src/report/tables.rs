@@ -6,6 +6,7 @@
 
 use super::document::Text;
 use super::prelude::*;
+use super::rows::RESULTS;
 use super::speed::Speed;
 use super::values::Values;
 use super::{board, criteria, map, rivals, rows, speed, summary};
@@ -16,7 +17,6 @@ const CLOSE: &str = " -->";
 const END: &str = "<!-- end -->";
 /// Columns of a line of text.
 const LINE: usize = 110;
-pub(super) const RESULTS: &str = "reports/nightly/results.csv";
 const GIST: &str = "reports/nightly/summary.md";
 /// Most bytes of the summary.
 const MOST_GIST: usize = 100_000;

@@ -10,8 +10,11 @@ use std::fs;
 
 /// Folders below the one that is named, down to which manifests are looked for.
 const DEPTH: usize = 3;
-/// Steps from which on a run is one of an explicit solver, whose cost a step is told.
+/// Steps from which on a run is one of an explicit solver; the board shows its cost a step.
 const EXPLICIT: u64 = 1000;
+
+/// What our runs stand under.
+pub(crate) const OWN: &str = "this program";
 
 /// How a run, or a method over its levels, stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -32,7 +35,7 @@ pub enum Standing {
 }
 
 impl Standing {
-    /// As it is told.
+    /// The name in tables.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -84,13 +87,13 @@ pub struct Method {
     pub case: &'static str,
     /// Name of the code.
     pub code: String,
-    /// Its version; empty if it is not told.
+    /// Its version, if it is known.
     pub version: String,
-    /// Where it is found; empty if it is not told.
+    /// Where it is found, if that is known.
     pub url: String,
     /// The scheme, in the words of whoever ran it.
     pub words: String,
-    /// What of the set-up is not its authors'; empty if nothing is told.
+    /// The part of the set-up that is not its authors', if there is one.
     pub note: String,
     /// How it stands over its levels.
     pub standing: Standing,
@@ -111,7 +114,7 @@ impl Line {
         };
         let wanted = |v: &&Verdict| v.kind == Kind::Truth && case.wanted.iter().any(|w| w.is_judged_by(&v.check));
         let over = |v: &Verdict| {
-            // Of a bound that is missed, the distance is told from the other side.
+            // A bound that is missed counts from the other side.
             let used = v.used()?;
             Some((if v.failed() && used < 1.0 { used.recip() } else { used }, v.check.clone()))
         };
@@ -251,7 +254,7 @@ impl Method {
             study.convergence = convergence(case, &study.records);
         }
         let runs = study.records.iter().map(|r| Line::of(case, r, Ending::Finished)).collect();
-        let ours = ["this program", "", ""].map(str::to_owned);
+        let ours = [OWN, "", ""].map(str::to_owned);
         Ok(Self::new((case, &study), ours, title, String::new(), runs))
     }
 }

@@ -196,7 +196,7 @@ impl Scored {
         }
         record.verdicts = judge(case, foreign, &given, &gaps, &record);
         if manifest.status != Ending::Finished {
-            let message = manifest.said.as_ref().map_or("no reason is told", |said| &said.0).to_owned();
+            let message = manifest.said.as_ref().map_or("it gives no reason", |said| &said.0).to_owned();
             record.status = Status::Failed;
             record.error = Some(Failure::told(message));
         }
