@@ -82,7 +82,8 @@ pub(super) fn case() -> Case {
     let moved = implicit(&[RuleName::Midpoint, RuleName::Newmark], &BASES[..3], &[RemedyName::None]);
     let plan = Plan::of(metre_levels()[..4].to_vec())
         .runs(Quick, "n8", &all[..1], "")
-        .runs(Pr, "n8 n16", &all, "")
+        .runs(Pr, "n8", &all, "")
+        .runs(Pr, "n16", &pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]), "")
         .runs(Nightly, FOUR, &all, "")
         .each(Pr, "n8", &moved, ["cfl=4", "cfl=16"])
         .runs(Nightly, "n16", &moved, "cfl=16")
