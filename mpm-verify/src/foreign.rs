@@ -305,15 +305,13 @@ impl Given {
     ///
     /// # Errors
     /// A place that has none, a particle elsewhere, or more than [`MOST_OF_OURS`] times ours.
-    pub(crate) fn require_whole_body(&self, start: Vec<Column>) -> Result<(), Error> {
-        let h = self.discretisation.h;
+    pub(crate) fn require_whole_body(&self, start: impl Fn() -> Result<Vec<Column>, Error>) -> Result<(), Error> {
+        let (h, given) = (self.discretisation.h, self.points([&START_X, &START_Y]));
+        let table = self.tables.iter().find(|(part, ..)| *part == Part::Particles);
+        let Some((_, path, _)) = table.filter(|_| !given.is_empty()) else { return Ok(()) };
+        let start = start()?;
         let of = |name: &str| start.iter().find(|c| c.name == name).map_or(&[][..], |c| &c.values);
         let ours: Vec<[f64; 2]> = of("reference_x").iter().zip(of("reference_y")).map(|(x, y)| [*x, *y]).collect();
-        let given = self.points([&START_X, &START_Y]);
-        let Some((_, path, _)) = self.tables.iter().find(|(part, ..)| *part == Part::Particles) else { return Ok(()) };
-        if ours.is_empty() || given.is_empty() {
-            return Ok(());
-        }
         let cell = |x: &[f64; 2]| x.map(|x| (x / h).floor() as i64);
         let alone = |from: &[[f64; 2]], to: &[[f64; 2]]| {
             let mut cells = HashMap::<[i64; 2], Vec<[f64; 2]>>::new();

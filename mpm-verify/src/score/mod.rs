@@ -173,7 +173,7 @@ impl Scored {
         if let Some(abscissa) = &foreign.abscissa {
             given.require_order(abscissa, &lines)?;
         }
-        given.require_whole_body((foreign.start)(&given.spec, &given.parameters)?)?;
+        given.require_whole_body(|| (foreign.start)(&given.spec, &given.parameters))?;
         let gaps = (foreign.gaps)(&given)?;
         let missing = asked.into_iter().filter(|a| !given.has(a)).collect();
         let mut record = Record::blank(case.name, &given.spec, &given.parameters, given.discretisation.clone(), 0);
