@@ -6,7 +6,9 @@ use crate::draw::{ReferenceLine, Scale, draw_charts};
 use crate::score::board::{Line, Method, OWN, Standing, read};
 
 /// Longest name of a method in a legend.
-const LONGEST: usize = 48;
+const LONGEST: usize = 60;
+/// Markers of the methods of a code, full and then hollow.
+const MARKERS: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
 /// Schemes of ours beside the others: standard MPM, the published F̄, and what we recommend.
 const OURS: [RemedyName; 3] = [RemedyName::None, RemedyName::FbarRecursive, RemedyName::FbarConsistent];
 
@@ -139,14 +141,16 @@ pub fn write(methods: &[Method], folder: &Path) -> Result<(), Error> {
         let mut chart = Chart::new(case, ["processor time (s)", "error over tolerance (–)"], Vec::new());
         (chart.x_scale, chart.y_scale) = (Scale::Log10, Scale::Log10);
         chart.reference_lines.push(ReferenceLine { name: "tolerance".to_owned(), value: 1.0, band: None });
-        for (k, m) in methods.iter().filter(|m| m.case == case).enumerate() {
-            let point = |line: &Line| Some((line.cpu_s?, line.worst.as_ref()?.0));
-            let points: Vec<(f64, f64)> = m.runs.iter().filter_map(point).collect();
-            let colour = codes.iter().position(|code| *code == m.code).unwrap_or_default();
-            let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
-            let name: String = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
-            let own = Series { name, points, colour, marker: markers[k % markers.len()], dash: Dash::Solid };
-            chart.series.extend(Some(own).filter(|s| !s.points.is_empty()));
+        for (k, code) in codes.iter().enumerate() {
+            let own = methods.iter().filter(|m| m.case == case && m.code == *code);
+            for (nth, m) in own.enumerate() {
+                let point = |line: &Line| Some((line.cpu_s?, line.worst.as_ref()?.0));
+                let points: Vec<(f64, f64)> = m.runs.iter().filter_map(point).collect();
+                let name: String = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
+                let dash = if nth < MARKERS.len() { Dash::Solid } else { Dash::Dashed };
+                let curve = Series { name, points, colour: k, marker: MARKERS[nth % MARKERS.len()], dash };
+                chart.series.extend(Some(curve).filter(|curve| !curve.points.is_empty()));
+            }
         }
         chart
     };

@@ -129,7 +129,8 @@ impl Line {
             (None, Standing::NotJudged) => named(Outcome::NotJudged),
             _ => String::new(),
         };
-        let of_error = |m: Metric| case.quantities.iter().any(|q| q.is_error && q.metric == m);
+        let of_error =
+            |m: Metric| m.name.ends_with("_error") || case.quantities.iter().any(|q| q.is_error && q.metric == m);
         let seen = |c: &&Column| c.metric.is_some_and(|m| of_error(m) && record.metric(m).is_finite());
         let known = |x: f64| Some(x).filter(|x| x.is_finite() && *x > 0.0);
         let cpu_s = known(record.time.cpu_s);
