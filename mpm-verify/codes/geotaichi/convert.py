@@ -1,7 +1,7 @@
 """Cook's membrane in GeoTaichi, from what `export` writes to what `score` reads. Run it in a checkout of GeoTaichi
 (commit 8e22a64; taichi 1.7.4, numpy 2.4, trimesh 3.23.5; empty modules stand for open3d and skimage, which are not used here).
 
-    python geotaichi_cook.py cook-h2 result [GIMP|QuadBSpline] ["F-Bar Method"] [LinearElastic] [USL|MUSL]
+    python convert.py cook-h2 result [GIMP|QuadBSpline] ["F-Bar Method"] [LinearElastic] [USL|MUSL]
 """
 import json, sys, time
 from pathlib import Path

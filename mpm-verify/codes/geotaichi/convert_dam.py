@@ -1,4 +1,4 @@
-"""The dam break in GeoTaichi: python geotaichi_dam.py dam result [alphaPIC] [F-Bar Method] (run in a checkout of GeoTaichi,
+"""The dam break in GeoTaichi: python convert_dam.py dam result [alphaPIC] [F-Bar Method] (run in a checkout of GeoTaichi,
 as convert.py). The water starts without its compression."""
 import glob, json, sys, time
 from pathlib import Path

@@ -3,7 +3,7 @@
     mpm-verify export cantilever --level h0.1 --out cantilever
     python convert.py cantilever result CHECKOUT/src [share of FLIP: 0] [seconds: 60] [cfl_elastic: 0.5]
 
-The driver below stands for Matter's own src/mpm.cpp; g++ 12 -O3 -fopenmp, Eigen 3.4, tinyply.h (commit of its main branch) in deps/;
+The driver below stands for Matter's own src/mpm.cpp; g++ 12 -O3 -fopenmp, Eigen 3.4, tinyply.h of its main branch in deps/;
 double, two dimensions, quadratic splines as src/tools.hpp has them. The weight grows over the first sixth of the time, then the beam
 comes to rest by the losses of PIC. Matter tests where a node would move to, so the plate stands at h/4, not at 0: nodes at x <= 0 are held.
 """
@@ -67,5 +67,5 @@ np.savetxt(out / "particles.csv", np.column_stack([X, rows[:, :2] - X, rows[:, 2
            header="reference_x (m),reference_y (m),ux (m),uy (m),stress_xx (Pa)", comments="")
 (out / "score.json").write_text(json.dumps({"cell_size_m": told["cell_size_m"], 
     "schema": 1, "code": {"name": "Matter", "version": "bf948b6", "url": "https://github.com/larsblatny/matter"}, "case": "cantilever",
-    "scheme": f"quadratic B-splines, explicit, {'PIC' if flip == '0' else 'flip_ratio ' + flip}, to rest, Hencky", "level": told["level"],
+    "scheme": f"quadratic B-splines, explicit, {'PIC' if flip == '0' else 'flip_ratio ' + flip}, to rest, Hencky, cfl_elastic {cfl}", "level": told["level"],
     "particles": "particles.csv", "cost": {"cpu_s": cost, "threads": 1, "steps": steps}}, indent=1))

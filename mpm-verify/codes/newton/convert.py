@@ -1,7 +1,7 @@
 """The dam break in Newton's implicit MPM (pip install newton), a slab one cell thick between walls without friction.
 
     newton 1.8.0, warp-lang 1.19.0, on the CPU, one thread of OpenMP
-    mpm-verify export dam-break --out dam && python newton_dam.py dam result && mpm-verify score result
+    mpm-verify export dam-break --out dam && python convert.py dam result && mpm-verify score result
 """
 import json, sys, time
 from pathlib import Path

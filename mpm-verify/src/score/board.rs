@@ -13,7 +13,7 @@ const DEPTH: usize = 3;
 /// Steps from which on a run is one of an explicit solver; the board shows its cost a step.
 const EXPLICIT: u64 = 1000;
 
-/// What our runs stand under.
+/// The code of our runs.
 pub(crate) const OWN: &str = "this program";
 
 /// How a run, or a method over its levels, stands.

@@ -44,8 +44,8 @@ const FASTER: f64 = 1.3;
 /// out-of-balance virtual work of 1e-3 that rest admits.
 const REST_NOISE: f64 = 2e-3;
 
-/// What the second extrapolation of momenta adds to the error of an independent code, and how far that code is from ours without
-/// it, per metre of cell size.
+/// Change of the error by a second extrapolation of momenta in an independent code, and that code's distance from ours without
+/// one, per metre of cell size.
 const SECOND: (f64, f64) = (-0.0071, 0.0016);
 
 const DIFFUSES: &str = "Π is no projection: Eq. (26) averages the average and so diffuses J̄";

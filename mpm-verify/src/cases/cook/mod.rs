@@ -168,6 +168,7 @@ fn plan() -> Plan {
         .runs(Nightly, "h2 h1", &every, "")
         .runs(Pr, "h2", &musl, "")
         .runs(Nightly, "h1", &musl, "")
+        .runs(Long, "h0.5 h0.25", &musl, "")
         .runs(Nightly, "h0.5 h0.25", &gimp(&[none]), "cfl=0.45")
         .runs(Nightly, "h0.5 h0.25", &quadratic(&[none]), "cfl=0.6")
         .runs(Nightly, "h0.5", &two(&[FbarRate]), "cfl=0.6")
