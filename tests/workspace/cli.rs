@@ -236,7 +236,7 @@ fn list_names_everything() {
     let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
     let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
     assert_eq!(cases[0]["case"], "cook");
-    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 27);
+    assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 28);
     assert_eq!(cases[0]["tier"], "pr");
 }
 
