@@ -53,6 +53,9 @@ fn a_method_shows_its_errors_over_tolerance_and_its_orders() {
     // On both sides of one.
     let used = |errors| method(errors).runs[2].worst.clone().unwrap();
     assert!(used([4e-3, 1e-3, 2.5e-4]).0 < 1.0 && used([4e-3, 1e-3, 0.5]).0 > 1.0);
+    // The error is 2000 times as large, and so is its share of the tolerance.
+    let ratio = used([4e-3, 1e-3, 0.5]).0 / used([4e-3, 1e-3, 2.5e-4]).0;
+    assert!((ratio / 2000.0 - 1.0).abs() < 1e-3, "{ratio}");
     assert_eq!(used([4e-3, 1e-3, 0.5]).1, "corner");
     let wrong = method([0.5; 3]);
     assert_eq!((wrong.standing, &*wrong.runs[2].why), (Standing::Wrong, "corner"));
