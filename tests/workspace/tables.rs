@@ -13,7 +13,7 @@ fn no_page_shows_a_table_that_the_kept_results_do_not_give() {
 fn a_changed_digit_is_named_and_filling_mends_it() {
     let root = tempfile::tempdir().unwrap();
     let place = |file: &str| root.path().join(file);
-    for folder in ["docs", "reports/nightly"] {
+    for folder in ["docs", "reports/nightly", "mpm-verify/codes"] {
         copy_tree(&workspace().join(folder), &place(folder));
     }
     let page = fs::read_to_string(workspace().join("README.md")).unwrap();

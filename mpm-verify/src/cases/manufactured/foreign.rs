@@ -26,11 +26,10 @@ const ROWS: f64 = 30.0;
 /// The motion by the steps of a code, and its rows, after the exact start if that is not among them.
 fn rows<const D: usize, K: Known>(given: &Given) -> Result<(Motion<D, K>, Vec<Sample>), Error> {
     let mut motion = Motion::new(given.setup()?)?;
-    // At the start no step has been taken, which may be longer than one of ours.
-    let start = motion.sample(motion.begin(&motion.unseen())?.as_ref());
     if given.discretisation.dt.is_finite() {
         motion.timing.dt = given.discretisation.dt;
     }
+    let start = motion.sample(motion.begin(&motion.unseen())?.as_ref());
     let row = |k| Sample {
         time: given.value(&TIME, k),
         kinetic: given.value(&KINETIC, k),
