@@ -136,13 +136,13 @@ pub fn write(methods: &[Method], folder: &Path) -> Result<(), Error> {
     make_folder(folder)?;
     write_json(&folder.join("board.json"), &json!({"schema": 1, "methods": methods}))?;
     write_whole(&folder.join("board.md"), format!("# MPM codes side by side\n\n{}", markdown(methods)).as_bytes())?;
-    let codes = distinct(methods.iter().map(|m| &*m.code));
     let chart = |case: &str| {
         let mut chart = Chart::new(case, ["processor time (s)", "error over tolerance (–)"], Vec::new());
         (chart.x_scale, chart.y_scale) = (Scale::Log10, Scale::Log10);
         chart.reference_lines.push(ReferenceLine { name: "tolerance".to_owned(), value: 1.0, band: None });
-        for (k, code) in codes.iter().enumerate() {
-            let own = methods.iter().filter(|m| m.case == case && m.code == *code);
+        let others = methods.iter().filter(|m| m.case == case).map(|m| &*m.code);
+        for (k, code) in distinct(std::iter::once(OWN).chain(others)).into_iter().enumerate() {
+            let own = methods.iter().filter(|m| m.case == case && m.code == code);
             for (nth, m) in own.enumerate() {
                 let point = |line: &Line| Some((line.cpu_s?, line.worst.as_ref()?.0));
                 let points: Vec<(f64, f64)> = m.runs.iter().filter_map(point).collect();
