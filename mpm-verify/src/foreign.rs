@@ -300,8 +300,8 @@ impl Given {
         Err(Error::file(path, said))
     }
 
-    /// Checks that particles of a plane start all over our body, no farther from ours than a cell, and that they are not those
-    /// of smaller cells.
+    /// Checks the places at which particles of a plane start: each of ours has one within a cell and each of theirs has one of
+    /// ours, and their number is that of cells of the level.
     ///
     /// # Errors
     /// A place that has none, a particle elsewhere, or more than [`MOST_OF_OURS`] times ours.

@@ -1,10 +1,13 @@
-//! The board, told: a table a case, a summary, JSON, and the picture of error over cost.
+//! The board as a table a case, a summary, JSON, and the picture of error over cost.
 
+use super::document::terminal::cut;
 use super::prelude::*;
 use super::rows::{self, RESULTS};
 use crate::draw::{ReferenceLine, Scale, draw_charts};
 use crate::score::board::{Line, Method, OWN, Standing, read};
 
+/// Longest name of a code beside a score.
+const LONGEST_BRIEF: usize = 36;
 /// Longest name of a method in a legend.
 const LONGEST: usize = 60;
 /// Markers of the methods of a code, full and then hollow.
@@ -27,7 +30,7 @@ pub(super) fn ours(
     own: bool,
     which: impl Fn(&Record) -> bool,
 ) -> Result<Vec<Method>, Error> {
-    let records: Vec<Record> = kept.iter().filter(|r| r.case == case.name && r.status == Status::Ok).cloned().collect();
+    let records: Vec<Record> = kept.iter().filter(|r| r.case == case.name).cloned().collect();
     let of_case = if own { (case.own_runs)(&records) } else { records.iter().collect() };
     let told: Vec<&Record> = of_case.into_iter().filter(|r| which(r)).collect();
     let of = |scheme| {
@@ -71,7 +74,8 @@ pub(super) fn lines(methods: &[Method], full: bool) -> Sheet {
         let worst = line.worst.as_ref().map_or(String::new(), |(used, _)| fixed(2).text(*used));
         let ns = line.ns.map_or(String::new(), |ns| fixed(0).text(ns));
         let words = if full || m.code == OWN { &m.words } else { "" };
-        let before = [(true, "code", inert(&m.code)), (true, "scheme", inert(words)), (full, "level", inert(&level))];
+        let code = if full { m.code.clone() } else { cut(&m.code, LONGEST_BRIEF) };
+        let before = [(true, "code", inert(&code)), (true, "scheme", inert(words)), (full, "level", inert(&level))];
         let errors = told.iter().map(|title| (true, *title, of(title)));
         let cost = [(true, "CPU (s)", seconds(line.cpu_s)), (full, "ns", ns)];
         let all = before.into_iter().chain(errors).chain([(true, "error/tolerance", worst)]).chain(cost);

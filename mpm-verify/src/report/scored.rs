@@ -21,7 +21,10 @@ pub fn beside(scores: &Scores) -> Result<Vec<Vec<Method>>, Error> {
     let rows = board::kept()?;
     let of = |scored: &Scored| {
         let asked = &scored.record;
-        let same = |r: &Record| r.level == asked.level && (asked.is_default() || r.parameters == asked.parameters);
+        let same = |r: &Record| {
+            let equal = asked.is_default() || r.parameters == asked.parameters;
+            r.status == Status::Ok && r.level == asked.level && equal
+        };
         let ours = board::ours(scored.case, &rows, asked.is_default(), same)?;
         Ok([vec![Method::alone(scored)], ours].concat())
     };
@@ -55,6 +58,11 @@ fn notes(scored: &Scored) -> Vec<String> {
         Some(more) => format!("{} and {more} more", names[..MOST].join(", ")),
     };
     told.map(|(what, names)| format!("{what}: {}.", listed(names))).collect()
+}
+
+/// The reason why no run of ours stands beside a result, if none does.
+fn absent(lines: &[Method]) -> Option<&'static str> {
+    (lines.len() < 2).then_some("Our runs: none is kept of this level and these parameters.")
 }
 
 /// Names of runs that are judged together, and the case's quantities by level.
@@ -95,6 +103,7 @@ fn of_run(scored: &Scored, lines: &[Method]) -> String {
     t += &found(scored.case, record);
     t.extend(notes(scored).iter().map(|note| wrapped(note, "", "  ")));
     let _ = writeln!(t, "\n{}", aligned(board::lines(lines, false)));
+    t.extend(absent(lines).map(|said| wrapped(said, "", "  ")));
     t + if scored.manifest.run > 0 { "\n" } else { "" }
 }
 
@@ -142,6 +151,7 @@ pub fn write(scores: &Scores, lines: &[Vec<Method>], gate: &Gate, folder: &Path)
         document.section("", board::inert(&title(run)));
         document.paragraph(sentence(&run.record) + ".");
         document.table("", board::lines(lines, false));
+        absent(lines).into_iter().for_each(|said| document.paragraph(said));
         document.table("", verdicts::table(run.record.verdicts.iter().map(|v| (None, v))));
         notes(run).iter().for_each(|note| document.paragraph(board::inert(note)));
     }

@@ -254,7 +254,8 @@ impl Method {
             study.verdicts = demands(case.judge_study(&study.records), own).collect();
             study.convergence = convergence(case, &study.records);
         }
-        let runs = study.records.iter().map(|r| Line::of(case, r, Ending::Finished)).collect();
+        let ending = |r: &Record| if r.status == Status::Ok { Ending::Finished } else { Ending::BrokeDown };
+        let runs = study.records.iter().map(|r| Line::of(case, r, ending(r))).collect();
         let ours = [OWN, "", ""].map(str::to_owned);
         Ok(Self::new((case, &study), ours, title, String::new(), runs))
     }

@@ -153,6 +153,34 @@ fn ours_are_judged_by_the_same_rule() {
     let locked = ours(crate::scheme::RemedyName::None, -0.06);
     assert_eq!((locked.standing, locked.code.as_str()), (Standing::Wrong, "this program"));
     assert!(locked.runs[0].why.contains("mid-edge"), "{:?}", locked.runs);
+    // One that broke down says so, as that of a stranger.
+    let scheme = crate::scheme::Scheme::flip(BasisName::Gimp, crate::scheme::RemedyName::None);
+    let spec = spec(scheme, find_level(case, "h1").unwrap(), &[]);
+    let discretisation = (foreign.discretisation)(&spec, &parameters).unwrap();
+    let mut record = Record::blank("cook", &spec, &parameters, discretisation, 1);
+    record.status = crate::record::Status::Failed;
+    record.error = Some(crate::record::Failure::told("off the grid".to_owned()));
+    let method = Method::of_ours("cook", &[&record]).unwrap();
+    assert_eq!((method.standing, &*method.runs[0].why), (Standing::BrokeDown, "off the grid"));
+}
+
+/// Where none of ours is kept a score says so, and a long name of a code does not widen its table.
+#[test]
+fn a_score_says_where_no_run_of_ours_stands_beside_it() {
+    let result = Answer::exported("cook", "h2", &["load=0.9"]);
+    let start = Table::read(&result.path("start.csv")).unwrap();
+    let none = vec![0.0; start.rows()];
+    let columns = ["reference_x (m)", "reference_y (m)"].map(|name| (name, start.get(name).unwrap().to_vec()));
+    let columns = columns.into_iter().chain(["ux (m)", "uy (m)"].map(|name| (name, none.clone())));
+    Table::of_columns(columns).write(&result.path("particles.csv")).unwrap();
+    result.edit(|manifest| {
+        manifest.as_object_mut().unwrap().remove("series");
+        manifest["code"]["name"] = json!("n".repeat(200));
+    });
+    let scores = result.scores().unwrap();
+    let told = crate::report::scored::text(&scores, &crate::report::scored::beside(&scores).unwrap());
+    assert!(told.contains("Our runs: none is kept of this level and these parameters."), "{told}");
+    assert!(told.lines().filter(|line| line.contains("nnn")).skip(1).all(|line| line.chars().count() <= 100), "{told}");
 }
 
 /// Templates with nothing of a code in them: their results are read, and wrong.
