@@ -1,6 +1,6 @@
 //! The board as a table a case, a summary, JSON, and the picture of error over cost.
 
-use super::document::terminal::cut;
+use super::document::{Document, Shown, terminal::cut};
 use super::prelude::*;
 use super::rows::{self, RESULTS};
 use crate::draw::{ReferenceLine, Scale, draw_charts};
@@ -78,8 +78,8 @@ pub(super) fn lines(methods: &[Method], full: bool) -> Sheet {
         let before = [(true, "code", inert(&code)), (true, "scheme", inert(words)), (full, "level", inert(&level))];
         let errors = told.iter().map(|title| (true, *title, of(title)));
         let cost = [(true, "CPU (s)", seconds(line.cpu_s)), (full, "ns", ns)];
-        let all = before.into_iter().chain(errors).chain([(true, "error/tolerance", worst)]).chain(cost);
-        let all = all.chain([(true, "verdict", inert(&format!("{standing}{why}")))]);
+        let behind = [(true, "verdict", inert(&format!("{standing}{why}")))];
+        let all = before.into_iter().chain(errors).chain([(true, "error/tolerance", worst)]).chain(cost).chain(behind);
         all.filter(|(shown, ..)| *shown).map(|(_, title, text)| (title.to_owned(), text)).unzip()
     };
     let rows: Vec<(Vec<String>, Vec<String>)> = runs().map(cells).collect();
@@ -117,51 +117,55 @@ fn summary(methods: &[Method]) -> Sheet {
 }
 
 /// The summary, and the runs of every case, as tables by name.
-pub(super) fn tables(methods: &[Method]) -> Vec<(String, String)> {
-    let of = |case: &str| {
+pub(super) fn tables(methods: &[Method]) -> Vec<(String, Sheet)> {
+    let mut all = vec![("board".to_owned(), summary(methods))];
+    for case in distinct(methods.iter().map(|m| m.case)) {
         let own: Vec<Method> = methods.iter().filter(|m| m.case == case).cloned().collect();
-        (format!("board-{case}"), lines(&own, true).markdown())
-    };
-    let cases = distinct(methods.iter().map(|m| m.case));
-    std::iter::once(("board".to_owned(), summary(methods).markdown())).chain(cases.into_iter().map(of)).collect()
+        all.push((format!("board-{case}"), lines(&own, true)));
+    }
+    all
 }
 
 /// As Markdown.
 #[must_use]
 pub fn markdown(methods: &[Method]) -> String {
-    tables(methods).into_iter().map(|(name, table)| format!("## {name}\n\n{table}\n")).collect()
+    tables(methods).into_iter().map(|(name, table)| format!("## {name}\n\n{}\n", table.markdown())).collect()
 }
 
-/// Writes `board.md`, `board.json` and `board.png`.
+/// Writes `board.html`, `board.json` and `board.png`.
 ///
 /// # Errors
 /// A file can't be written or drawn.
 pub fn write(methods: &[Method], folder: &Path) -> Result<(), Error> {
     make_folder(folder)?;
     write_json(&folder.join("board.json"), &json!({"schema": 1, "methods": methods}))?;
-    write_whole(&folder.join("board.md"), format!("# MPM codes side by side\n\n{}", markdown(methods)).as_bytes())?;
     let chart = |case: &str| {
         let mut chart = Chart::new(case, ["processor time (s)", "error over tolerance (–)"], Vec::new());
         (chart.x_scale, chart.y_scale) = (Scale::Log10, Scale::Log10);
         chart.reference_lines.push(ReferenceLine { name: "tolerance".to_owned(), value: 1.0, band: None });
         let others = methods.iter().filter(|m| m.case == case).map(|m| &*m.code);
         for (k, code) in distinct(std::iter::once(OWN).chain(others)).into_iter().enumerate() {
-            let own = methods.iter().filter(|m| m.case == case && m.code == code);
-            for (nth, m) in own.enumerate() {
-                let point = |line: &Line| Some((line.cpu_s?, line.worst.as_ref()?.0));
-                let points: Vec<(f64, f64)> = m.runs.iter().filter_map(point).collect();
-                let name: String = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
+            for (nth, m) in methods.iter().filter(|m| m.case == case && m.code == code).enumerate() {
+                let points = m.runs.iter().filter_map(|line| Some((line.cpu_s?, line.worst.as_ref()?.0))).collect();
+                let name = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
                 let dash = if nth < MARKERS.len() { Dash::Solid } else { Dash::Dashed };
-                let curve = Series { name, points, colour: k, marker: MARKERS[nth % MARKERS.len()], dash };
-                chart.series.extend(Some(curve).filter(|curve| !curve.points.is_empty()));
+                chart.series.push(Series { name, points, colour: k, marker: MARKERS[nth % MARKERS.len()], dash });
             }
+            chart.series.retain(|curve| !curve.points.is_empty());
         }
         chart
     };
-    let charts: Vec<Chart> = distinct(methods.iter().map(|m| m.case)).into_iter().map(chart).collect();
-    let charts: Vec<Chart> = charts.into_iter().filter(|chart| !chart.series.is_empty()).collect();
-    if charts.is_empty() {
-        return Ok(());
+    let mut charts: Vec<Chart> = distinct(methods.iter().map(|m| m.case)).into_iter().map(chart).collect();
+    charts.retain(|chart| !chart.series.is_empty());
+    let mut page = Document::new("MPM codes side by side");
+    if !charts.is_empty() {
+        let [file, caption] = ["board.png", "Error over its tolerance, over processor time."].map(str::to_owned);
+        draw_charts(&folder.join(&file), &charts, 2)?;
+        page.picture(Shown::of(&Picture { file, caption }, folder));
     }
-    Ok(draw_charts(&folder.join("board.png"), &charts, 2)?)
+    for (name, sheet) in tables(methods) {
+        page.section(&name, &*name);
+        page.table("", sheet);
+    }
+    page.write_page("MPM codes side by side", Vec::new(), &folder.join("board.html"))
 }

@@ -47,7 +47,8 @@ impl Page {
         let codes = root.join("mpm-verify/codes");
         if codes.exists() {
             let kept: Vec<Record> = rows.iter().filter_map(rows::Row::record).collect();
-            tables.extend(board::tables(&board::among(&[codes], &kept)?));
+            let board = board::tables(&board::among(&[codes], &kept)?);
+            tables.extend(board.into_iter().map(|(name, sheet)| (name, sheet.markdown())));
         }
         let mut files = vec![root.join("README.md")];
         let docs = root.join("docs");

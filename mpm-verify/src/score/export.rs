@@ -5,6 +5,7 @@ use super::*;
 use crate::files::{make_folder, write_csv, write_json, write_whole};
 use crate::parameter::Parameter;
 use crate::problem::measured;
+use crate::run::vtu::write_vtu;
 use crate::table::Sheet;
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -28,6 +29,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     }
     let start = (foreign.start)(spec, &parameters)?;
     make_folder(folder)?;
+    write_vtu(&folder.join("start.vtu"), &start)?;
     let columns = start.into_iter().map(|c| (format!("{} ({})", c.name, c.unit), c.values));
     Table::of_columns(columns).write(&folder.join(START))?;
     let discretisation = (foreign.discretisation)(spec, &parameters)?;
@@ -44,7 +46,7 @@ pub fn export(case: &Case, foreign: &Foreign, spec: &RunSpec, folder: &Path) -> 
     });
     write_csv(&folder.join("reference.csv"), &header, rows)?;
     let curves = (foreign.curves)(&parameters);
-    let mut files = vec![START, "problem.json", "reference.csv"];
+    let mut files = vec![START, "start.vtu", "problem.json", "reference.csv"];
     for (name, columns) in curves {
         Table::of_columns(columns).write(&folder.join(name))?;
         files.push(name);
@@ -139,6 +141,7 @@ fn readme(
             START => {
                 "the particles of our runs before anything moves; yours may start elsewhere unless it is said above"
             }
+            "start.vtu" => "the same for ParaView, in single precision",
             "problem.json" => "the problem as data, and parameters with values, units and meanings",
             "reference.csv" => "what the checks demand: reference ± tolerance, or a bound",
             _ => "the reference as a curve",

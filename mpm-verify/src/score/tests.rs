@@ -213,7 +213,7 @@ fn what_a_manifest_names_is_refused_by_its_key() {
 #[test]
 fn what_is_exported_is_the_problem() {
     let result = Answer::of_column();
-    let names = ["start.csv", "problem.json", "reference.csv", CURVE, FILE, "README.md"];
+    let names = ["start.csv", "start.vtu", "problem.json", "reference.csv", CURVE, FILE, "README.md"];
     assert_eq!(result.files, names);
     let problem = result.json("problem.json");
     assert_eq!((&problem["case"], &problem["level"]), (&json!("consolidation"), &json!("n8")));

@@ -10,6 +10,9 @@
 //! and the least γH/c of all spirals from the crest (θ₀) to the toe (θ_h) is the stability number (W. F. Chen 1975, *Limit
 //! Analysis and Soil Plasticity*, chapter 9). Spirals that leave below the toe are not tried: they are lower for flat
 //! slopes with little friction only.
+//!
+//! **With water** of the pressure u in pores, effective stresses do no work where the spiral opens, and u does ∫ u v_n ds =
+//! tan φ ∫ u r² dθ, which is part of the work (Michalowski 1995, doi:10.1680/geot.1995.45.2.283).
 
 use crate::Error;
 
@@ -23,8 +26,14 @@ const LEAST_OPENING: f64 = 0.01;
 const BISECTIONS: u32 = 50;
 const GREATEST: f64 = 100.0;
 
+/// Panels of the pressure's integral along a spiral.
+const PANELS: u32 = 64;
+
+/// Water's pressure over γH at a place over H, from the toe into the slope and upward.
+pub type Water<'a> = &'a dyn Fn([f64; 2]) -> f64;
+
 /// γH/c of the mechanism from θ₀ to θ_h; none where the two are no slope.
-fn number(beta: f64, tan_phi: f64, [first, last]: [f64; 2]) -> Option<f64> {
+fn number(beta: f64, tan_phi: f64, [first, last]: [f64; 2], water: Option<Water<'_>>) -> Option<f64> {
     let radius = ((last - first) * tan_phi).exp();
     let (entry, toe) = ([first.cos(), -first.sin()], [radius * last.cos(), -radius * last.sin()]);
     let height = entry[1] - toe[1];
@@ -38,7 +47,17 @@ fn number(beta: f64, tan_phi: f64, [first, last]: [f64; 2]) -> Option<f64> {
         cube * (3.0 * tan_phi * angle.cos() + angle.sin()) / (3.0 * (1.0 + 9.0 * tan_phi * tan_phi))
     };
     let triangle = |p: [f64; 2], q: [f64; 2]| (q[0] * p[1] - p[0] * q[1]) * (p[0] + q[0]) / 6.0;
-    let work = sector(last) - sector(first) - triangle(entry, crest) - triangle(crest, toe);
+    let weight = sector(last) - sector(first) - triangle(entry, crest) - triangle(crest, toe);
+    let opening = |water: Water<'_>| {
+        let panel = (last - first) / f64::from(PANELS);
+        let at = |i: u32| {
+            let angle = first + (f64::from(i) + 0.5) * panel;
+            let r = ((angle - first) * tan_phi).exp();
+            r * r * water([(r * angle.cos() - toe[0]) / height, (-r * angle.sin() - toe[1]) / height])
+        };
+        height * tan_phi * panel * (0..PANELS).map(at).sum::<f64>()
+    };
+    let work = weight + water.map_or(0.0, opening);
     let dissipation = (radius * radius - 1.0) / (2.0 * tan_phi);
     (work > 0.0).then(|| height * dissipation / work)
 }
@@ -48,13 +67,17 @@ fn number(beta: f64, tan_phi: f64, [first, last]: [f64; 2]) -> Option<f64> {
 /// # Errors
 /// An angle that is not between 0 and π/2, or a slope that stands at any height.
 pub fn stability_number(beta: f64, phi: f64) -> Result<f64, Error> {
+    least_number(beta, phi, None)
+}
+
+fn least_number(beta: f64, phi: f64, water: Option<Water<'_>>) -> Result<f64, Error> {
     let right = std::f64::consts::FRAC_PI_2;
     for (name, angle, most) in [("beta", beta, right), ("phi", phi, right)] {
         if !(angle > 0.0 && angle <= most) {
             return Err(Error(format!("parameter {name}: {angle}; allowed: above 0 and up to π/2 (rad)")));
         }
     }
-    if phi >= beta {
+    if phi >= beta && water.is_none() {
         return Err(Error(format!("parameter phi: {phi}; allowed: below the slope's angle {beta} (rad)")));
     }
     let mut best = (f64::INFINITY, [0.5 * right, right]);
@@ -65,7 +88,7 @@ pub fn stability_number(beta: f64, phi: f64) -> Result<f64, Error> {
             let place = [sample % (SAMPLES + 1), sample / (SAMPLES + 1)];
             let at = |k: usize| middle[k] + width[k] * (2.0 * f64::from(place[k]) / f64::from(SAMPLES) - 1.0);
             let angles = [at(0), at(1)];
-            if let Some(found) = number(beta, phi.tan(), angles).filter(|found| *found < best.0) {
+            if let Some(found) = number(beta, phi.tan(), angles, water).filter(|found| *found < best.0) {
                 best = (found, angles);
             }
         }
@@ -79,12 +102,23 @@ pub fn stability_number(beta: f64, phi: f64) -> Result<f64, Error> {
 /// # Errors
 /// As of [`stability_number`].
 pub fn factor_of_safety(beta: f64, phi: f64, load: f64) -> Result<f64, Error> {
-    let least = (phi.tan() / beta.tan()).max(0.0) * (1.0 + 1e-9);
-    let (mut low, mut high) = (least, GREATEST);
+    let flat = (phi.tan() / beta.tan()).max(0.0) * (1.0 + 1e-9);
+    search([flat, GREATEST], |factor| Ok(least_number(beta, (phi.tan() / factor).atan(), None)? > load * factor))
+}
+
+/// That of a slope with water.
+///
+/// # Errors
+/// An angle that is not between 0 and π/2.
+pub fn factor_of_safety_with_water(beta: f64, phi: f64, load: f64, water: Water<'_>) -> Result<f64, Error> {
+    let stands = |factor: f64| Ok(least_number(beta, (phi.tan() / factor).atan(), Some(water))? > load * factor);
+    search([1.0 / GREATEST, GREATEST], stands)
+}
+
+fn search([mut low, mut high]: [f64; 2], stands: impl Fn(f64) -> Result<bool, Error>) -> Result<f64, Error> {
     for _ in 0..BISECTIONS {
         let middle = 0.5 * (low + high);
-        let stands = stability_number(beta, (phi.tan() / middle).atan())? > load * middle;
-        *(if stands { &mut low } else { &mut high }) = middle;
+        *(if stands(middle)? { &mut low } else { &mut high }) = middle;
     }
     Ok(0.5 * (low + high))
 }
@@ -119,8 +153,28 @@ mod tests {
         let (beta, phi) = (0.5_f64.atan(), 20.0_f64.to_radians());
         let factor = factor_of_safety(beta, phi, 20.0).unwrap();
         assert!((factor - 1.368).abs() < 5e-4, "{factor}");
-        let number = stability_number(beta, (phi.tan() / factor).atan()).unwrap();
-        assert!((number / (20.0 * factor) - 1.0).abs() < 1e-9);
-        assert!(stability_number(0.0, phi).is_err() && stability_number(beta, beta).is_err());
+        let least = stability_number(beta, (phi.tan() / factor).atan()).unwrap();
+        assert!((least / (20.0 * factor) - 1.0).abs() < 1e-9);
+        // No water, and a slope under water, on whose surface it presses as well: by the whole of its buoyancy, ∮ u v_n ds.
+        let none = factor_of_safety_with_water(beta, phi, 20.0, &|_| 0.0).unwrap();
+        assert!((none / factor - 1.0).abs() < 1e-9, "{none}");
+        let (beta, angles) = (45.0_f64.to_radians(), [0.6_f64, 1.7]);
+        let [dry, wet] = [None, Some(&(|[_, y]: [f64; 2]| 0.5 * (1.0 - y)) as Water<'_>)];
+        let [dry, wet] = [dry, wet].map(|water| number(beta, phi.tan(), angles, water).unwrap().recip());
+        let radius = (1.1 * phi.tan()).exp();
+        let (toe, height) =
+            ([radius * angles[1].cos(), -radius * angles[1].sin()], radius * angles[1].sin() - angles[0].sin());
+        let on_face: f64 = (0..1000)
+            .map(|i| {
+                // The face outward is (−sin β, cos β), the velocity there (y, −x) from the pole.
+                let up = height * (f64::from(i) + 0.5) / 1000.0;
+                let [x, y] = [toe[0] + up / beta.tan(), toe[1] + up];
+                -0.5 * (height - up) * (beta.sin() * y + beta.cos() * x) * height / 1000.0 / beta.sin()
+            })
+            .sum();
+        let dissipation = height * (radius * radius - 1.0) / (2.0 * phi.tan());
+        let sum = (wet - dry) * dissipation - on_face;
+        assert!((sum / (-0.5 * dry * dissipation) - 1.0).abs() < 1e-3, "{sum} {}", dry * dissipation);
+        assert!(stability_number(0.0, phi).is_err() && stability_number(phi, phi).is_err());
     }
 }

@@ -3,6 +3,7 @@
 use super::bodies::rows_of;
 use super::*;
 use crate::exact::ground;
+use crate::exact::slope::spiral;
 use std::f64::consts::PI;
 
 /// A run of a shipped scene that some changes are made to, its strengths divided by a factor, to its end.
@@ -80,6 +81,28 @@ fn a_slope_with_water_stands_and_fails_by_its_factor() {
     let water = dry.split("[water]").nth(1).and_then(|rest| rest.split("[[loads]]").next()).unwrap();
     let changes = [(&*format!("[water]{water}"), ""), ("poro-gimp-two-grid", "quasi-static-gimp-none")];
     assert!(run("wet-slope.toml", &changes, factor(5.0, 0.0)).is_ok());
+}
+
+/// A slope that suction holds stands at the factor of the log spiral, where it would slide if it were dry, and pressures are
+/// hydrostatic. It slides at half as much again: GIMP's bands of shear are strong (`docs/soils.md`).
+#[test]
+fn a_slope_above_its_water_table_stands_by_suction() {
+    let [beta, phi] = [45.0_f64, 25.0].map(f64::to_radians);
+    let load = 2000.0 * 9.81 * 5.0 / 5e3;
+    let exact = spiral::factor_of_safety_with_water(beta, phi, load, &|[_, y]| -0.5 * y).unwrap();
+    assert!((exact - 1.600).abs() < 5e-4, "{exact}");
+    let particles = run("slope-with-water.toml", &[], exact).unwrap().particles();
+    let of = |name: &str| &particles.iter().find(|column| column.name == name).unwrap().values;
+    for (y, pressure) in of("y").iter().zip(of("pore_pressure")) {
+        assert!((pressure + 9810.0 * y).abs() < 1.0, "{pressure} at {y}");
+    }
+    assert!(run("slope-with-water.toml", &[], 1.5 * exact).is_err());
+    let text = std::fs::read_to_string(shipped("slope-with-water.toml")).unwrap();
+    let water = text.split("[water]").nth(1).and_then(|rest| rest.split("[[loads]]").next()).unwrap();
+    let dry = [(&*format!("[water]{water}"), ""), ("poro-gimp-two-grid", "quasi-static-gimp-none")];
+    assert!(run("slope-with-water.toml", &dry, exact).is_err());
+    let dry_exact = spiral::factor_of_safety(beta, phi, load).unwrap();
+    assert!((dry_exact - 1.061).abs() < 5e-4 && run("slope-with-water.toml", &dry, dry_exact).is_ok(), "{dry_exact}");
 }
 
 /// Clay whose strength grows with depth, s_u = 10 kPa + 3 kPa/m z, on a slope: F = s_u/(ρ g z sin β) at the base. A cut-off
