@@ -20,7 +20,8 @@ pub(super) fn case() -> Case {
         .runs(Pr, "n8", &few, "")
         .runs(Nightly, THREE, &few, "")
         .runs(Nightly, "n8 n16", &few, "poisson_ratio=0.3")
-        .each(Nightly, "n8 n16", &main_pairs(), MORE);
+        .each(Nightly, "n8", &main_pairs(), MORE)
+        .each(Long, "n16", &main_pairs(), MORE);
     known_case::<3, Swirl>([
         "mms-swirl",
         "Swirl in three dimensions",

@@ -48,7 +48,8 @@ fn plan() -> Plan {
         .runs(Quick, "n8", &sound[1..2], "")
         .runs(Pr, "n8 n16", &sound, "")
         .runs(Nightly, FOUR, &all, "")
-        .runs(Nightly, FOUR, &other_transfers(), "")
+        .runs(Nightly, THREE, &other_transfers(), "")
+        .runs(Long, "n64", &other_transfers(), "")
         .each(Nightly, THREE, &main_pairs(), MORE)
         .each(Nightly, "n8 n16", &all, ratios)
 }

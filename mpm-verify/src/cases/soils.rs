@@ -110,7 +110,7 @@ pub(super) fn case() -> Case {
         .runs(Pr, "c1", &sand[1..], "ground=sand-column")
         .runs(Nightly, "c1 c2 c4", &statics, "")
         .runs(Nightly, "c1 c2", &statics, "ground=earth-pressure")
-        .runs(Nightly, "c1 c2 c4", &statics[1..], "ground=rough-wall")
+        .runs(Nightly, "c1 c2", &statics[1..], "ground=rough-wall")
         .runs(Nightly, "c1 c2 c4", &sand, "ground=sand-column")
         .runs(Nightly, "c1 c2", &sand, "ground=sand-cylinder");
     Case {

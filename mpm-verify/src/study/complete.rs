@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::*;
+use crate::case::Tier;
 
 /// Key of a kept row's run, and its program; the row has more columns.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
@@ -21,8 +22,8 @@ struct Known {
     planned: usize,
     /// Folders of runs that have no row.
     missing: Vec<String>,
-    /// Rows of every other program than this one.
-    others: BTreeMap<String, usize>,
+    /// Rows of every program.
+    programs: BTreeMap<String, usize>,
 }
 
 /// A plan compared with the rows that are kept of nights.
@@ -58,22 +59,25 @@ impl Completeness {
             known.planned += 1;
             match made.get(&[case, run.scheme.to_string(), level, run.set.join(" ")]) {
                 None => known.missing.push(run.folder().display().to_string()),
-                Some(other) if *other != program => {
-                    *known.others.entry((*other).to_owned()).or_default() += 1;
-                }
-                Some(_) => {}
+                Some(made_by) => *known.programs.entry((*made_by).to_owned()).or_default() += 1,
             }
         }
         Self { tier: plan.tier.clone(), program: program.to_owned(), cases }
     }
 
-    /// Whether every planned run has a row.
+    /// Whether every planned run has a row, and those of a case are of one program, as they stand in its tables side by side;
+    /// the largest runs, of the tier `long`, may be older.
     ///
     /// # Errors
-    /// One has none.
+    /// One has none, or a case has rows of several programs.
     pub fn require(&self) -> Result<(), Error> {
+        let several = |known: &Known| known.programs.len() > 1 && self.tier != Tier::Long.to_string();
+        let mixed: Vec<&str> = self.cases.iter().filter(|(_, known)| several(known)).map(|(case, _)| &**case).collect();
         match self.missing() {
-            0 => Ok(()),
+            0 if mixed.is_empty() => Ok(()),
+            0 => {
+                Err(Error::Input(format!("rows of several programs in a case: run the night of {}", mixed.join(", "))))
+            }
             missing => {
                 Err(Error::Input(format!("incomplete: {missing} of {} planned runs have no row", self.planned())))
             }
@@ -100,7 +104,7 @@ impl fmt::Display for Completeness {
             let made = known.planned - known.missing.len();
             write!(f, "{case}: {made} of {} runs have a row", known.planned)?;
             let mut joint = "; of other programs";
-            for (program, count) in &known.others {
+            for (program, count) in known.programs.iter().filter(|(program, _)| **program != self.program) {
                 others += count;
                 write!(f, "{joint} {count} ({program})")?;
                 joint = ",";
@@ -122,7 +126,6 @@ impl fmt::Display for Completeness {
 mod tests {
     use super::super::plan::Shard;
     use super::*;
-    use crate::case::Tier;
     use crate::cases;
 
     /// The quick tier of two cases, and a row of "now" for each of its runs.
@@ -159,14 +162,20 @@ mod tests {
     }
 
     #[test]
-    fn rows_of_another_program_are_counted_by_case_and_accepted() {
-        let (plan, mut rows) = measured();
+    fn rows_of_another_program_are_counted_by_case_and_refused_beside_others() {
+        let (mut plan, mut rows) = measured();
         let of_column = rows.iter_mut().filter(|row| row.case == "column");
         for row in of_column.take(2) {
             row.program = "then".to_owned();
         }
         let found = Completeness::compare(&plan, &rows, "now");
-        assert!(found.require().is_ok());
+        let error = found.require().unwrap_err().to_string();
+        assert!(error.contains("several programs in a case: run the night of column"), "{error}");
+        plan.tier = Tier::Long.to_string();
+        assert!(Completeness::compare(&plan, &rows, "now").require().is_ok());
+        plan.tier = Tier::Pr.to_string();
+        let all_older: Vec<Row> = rows.iter().map(|row| Row { program: "then".to_owned(), ..row.clone() }).collect();
+        assert!(Completeness::compare(&plan, &all_older, "now").require().is_ok());
         let told = found.to_string();
         assert!(told.contains("; of other programs 2 (then)\n"), "{told}");
         assert!(told.contains("2 rows are of another program than now."));

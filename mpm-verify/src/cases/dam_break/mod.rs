@@ -131,13 +131,12 @@ pub(super) fn case() -> Case {
 fn plan() -> Plan {
     let flip = |remedies: &[RemedyName]| pairs(&SMOOTH, remedies);
     let none = RemedyName::None;
-    let mut all = flip(&[none, FbarRecursive, FbarTotal, FbarConsistent]);
-    all.extend(all.clone().iter().map(|s| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic)));
-    all.extend(flip(&[FbarRate]));
+    let four = flip(&[none, FbarRecursive, FbarTotal, FbarConsistent]);
+    let apic = four.iter().map(|s| Scheme::explicit(s.basis(), s.remedy(), TransferName::Apic)).collect();
+    let mut all = [four.clone(), apic, flip(&[FbarRate])].concat();
     all.push(Scheme::flip(Bspline3, FbarConsistent));
     let ours = flip(&[FbarConsistent]);
     let finest = flip(&[FbarRecursive, FbarConsistent]);
-    let others: Vec<Scheme> = all.iter().filter(|s| !finest.contains(s)).copied().collect();
     let three = flip(&[none, FbarRecursive, FbarConsistent]);
     let make_energy = pairs(&[Gimp], &[FbarTotal, FbarRate]);
     let rates = [0.1, 1.0, 10.0, 100.0].map(|rate| format!("pic_rate={rate}"));
@@ -145,15 +144,17 @@ fn plan() -> Plan {
         .runs(Pr, "h0.5 h0.25", &three, SHORT)
         .runs(Pr, "h0.5", &make_energy, SHORT)
         .runs(Pr, "h0.5", &finest[..2], "duration=0.6")
-        .runs(Nightly, "h0.5 h0.25", &all, "")
-        .runs(Nightly, "h0.5 h0.25 h0.125", &all, LADDER)
-        .runs(Nightly, "h0.0625", &finest, LADDER)
+        .runs(Nightly, "h0.5", &all, "")
+        .runs(Nightly, "h0.25", &ours, "")
+        .runs(Long, "h0.25", &all, "")
+        .runs(Nightly, "h0.5 h0.25", &all, LADDER)
+        .runs(Nightly, "h0.125", &four, LADDER)
         .runs(Nightly, "h0.5 h0.25 h0.125", &ours, "cfl=0.3 ppc_per_direction=3")
         .each(Nightly, "h0.25", &ours, ["cfl=0.15", "start=gravity-stage"])
-        .each(Nightly, "h0.25", &ours, rates)
+        .each(Long, "h0.25", &ours, rates)
         .runs(Nightly, "h0.25", &ours, "wall_contact=sticky")
-        .each(Nightly, "h0.25", &ours, ["seed=1", "seed=2", "seed=3"])
-        .runs(Long, "h0.0625", &others, LADDER)
+        .each(Long, "h0.25", &ours, ["seed=1", "seed=2", "seed=3"])
+        .runs(Long, "h0.125 h0.0625", &all, LADDER)
 }
 
 const CHANGED: Label = ("changed", |r| r.set.join(", ").replace('_', " "));

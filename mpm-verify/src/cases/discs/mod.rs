@@ -154,7 +154,7 @@ fn plan() -> Plan {
         .runs(Pr, "h0.05", &[plain(Linear, Musl)], "offset=0.65")
         .each(Nightly, "h0.05 h0.025", &all, ["", "offset=0.4"])
         .each(Nightly, "h0.05", &both, ["offset=0.1 step_factor=100", "step_factor=10", "offset=0.1 step_factor=10"])
-        .runs(Nightly, "h0.05", &both, "")
+        .runs(Long, "h0.05", &both, "")
         .runs(Nightly, "h0.025", &both, "step_factor=100")
         // The speed of the paper's Figure 5, and steps as long as the contact.
         .runs(Pr, "h0.05", &[plain(Linear, Musl), plain(Gimp, Flip)], "speed=1")

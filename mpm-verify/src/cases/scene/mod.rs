@@ -153,6 +153,7 @@ pub(super) fn begin(
     let grid = form.grid.as_mut();
     grid.cell_size_m.0 *= ratio;
     grid.cells.iter_mut().for_each(|cells| cells.0 = (f64::from(cells.0) / ratio).round() as u32);
+    form.contacts.iter_mut().for_each(|contact| contact.as_mut().reach_m.0 *= ratio);
     let (solver, row) = (form.solver.as_mut(), form.output.get_ref().row_s);
     solver.scheme = spec.scheme.to_string();
     // A scheme of another kind than the scene's has another step.

@@ -84,9 +84,9 @@ fn plan() -> Plan {
     Plan::of(LEVELS)
         // Three trials of softer ground, whose steps are longer. The limit load does not depend on stiffness.
         .runs(Pr, "h0.4", &pairs(&[Gimp], &REMEDIES), "young_modulus=6.25e6 most=2 trials=3")
-        .runs(Nightly, "h0.4 h0.2", &all, "")
+        .runs(Nightly, "h0.4", &all, "")
         .runs(Nightly, "h0.4 h0.2 h0.1", &pairs(&[Gimp, Bspline2], &[RemedyName::None, FbarConsistent]), FRICTION)
-        .runs(Long, "h0.1", &all, "")
+        .runs(Long, "h0.2 h0.1", &all, "")
         .runs(Pr, "h0.4", &statics[1..2], "most=2 trials=3 load_steps=2")
         .runs(Nightly, "h0.4 h0.2", &statics, "")
         .runs(Long, "h0.1", &statics, "")
