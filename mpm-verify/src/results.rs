@@ -319,9 +319,9 @@ impl ResultTable {
         Self { across: true, ..self }
     }
 
-    /// The table of some runs, by case, scheme, level and changed parameters, and the runs it contains. A cell without
-    /// a run is empty; a breakdown is shown once per row.
-    pub(crate) fn fill<'a>(&self, records: impl IntoIterator<Item = &'a Record>) -> (Sheet, Vec<&'a Record>) {
+    /// The table of some runs, by case, scheme, level and changed parameters. A cell without a run is empty; a breakdown is
+    /// shown once per row.
+    pub(crate) fn fill<'a>(&self, records: impl IntoIterator<Item = &'a Record>) -> Sheet {
         let mut shown: Vec<&Record> = records.into_iter().filter(|r| (self.shows)(r)).collect();
         let cases = distinct(shown.iter().map(|r| &r.case));
         shown.sort_by(|a, b| {
@@ -333,42 +333,36 @@ impl ResultTable {
         let label = |r: &Record| -> Vec<String> { self.labels.iter().map(|(_, of)| of(r)).collect() };
         let titles = self.labels.iter().map(|(title, _)| (*title).to_owned());
         let head = titles.chain(self.columns.iter().map(|c| c.title.clone()));
-        let (mut sheet, mut told) = (Sheet::new(head), Vec::new());
+        let mut sheet = Sheet::new(head);
         let says = |cells: &[String]| cells.iter().filter(|c| !c.is_empty()).count();
         for labels in distinct(shown.iter().map(|r| label(r))) {
             let runs = shown.iter().copied().filter(|r| label(r) == labels);
-            let (cells, of) = self.cells(&runs.collect::<Vec<_>>(), &shown);
+            let cells = self.cells(&runs.collect::<Vec<_>>(), &shown);
             if says(&cells) >= self.least {
                 sheet.rows.push([labels, cells].concat());
-                told.extend(of);
             }
         }
         if self.across {
             sheet = sheet.transposed();
             sheet.rows.retain(|row| says(&row[1..]) > 0);
         }
-        (sheet, told)
+        sheet
     }
 
-    /// Cells of the runs of a row, and the runs used.
-    fn cells<'a>(&self, runs: &[&'a Record], all: &[&'a Record]) -> (Vec<String>, Vec<&'a Record>) {
-        let mut told: Vec<&Record> = Vec::new();
+    /// Cells of the runs of a row.
+    fn cells(&self, runs: &[&Record], all: &[&Record]) -> Vec<String> {
         let mut broken = None;
         let cells = self.columns.iter().map(|column| match &column.cell {
-            Cell::Row(text) => {
-                told.extend(runs);
-                text(runs, all)
-            }
+            Cell::Row(text) => text(runs, all),
             Cell::Run(of, text) => {
                 let Some(run) = runs.iter().copied().find(|r| of(r)) else { return String::new() };
-                told.push(run);
                 let Status::Failed = run.status else { return text(run) };
                 let again = broken.replace(std::ptr::from_ref(run)) == Some(std::ptr::from_ref(run));
                 let time = fixed(2).text(run.error.as_ref().map_or(f64::NAN, |e| e.time));
                 if again { String::new() } else { format!("breaks down at {time} s") }
             }
         });
-        (cells.collect(), told)
+        cells.collect()
     }
 }
 
@@ -406,10 +400,9 @@ mod tests {
         let columns =
             ["h1", "h0.5"].map(|level| Column::value(level, particles, fixed(0)).of(move |r| r.level == level));
         let table = |columns: Vec<Column>| ResultTable::new("t", |_: &Record| true, &[SCHEME], columns);
-        let (sheet, told) = table(columns.into()).fill(&runs);
+        let sheet = table(columns.into()).fill(&runs);
         assert_eq!(sheet.markdown(), "| scheme | h1 | h0.5 |\n|---|---|---|\n| gimp none | 1 |  |\n");
-        assert_eq!(told.iter().map(|r| &*r.level).collect::<Vec<_>>(), ["h1"]);
         let nothing = [Column::text("", |_| String::new())];
-        assert!(table(nothing.into()).least(1).fill(&runs).0.rows.is_empty());
+        assert!(table(nothing.into()).least(1).fill(&runs).rows.is_empty());
     }
 }

@@ -75,15 +75,14 @@ pub(super) struct Panel<'a> {
     pub(super) lines: Vec<Line>,
     /// Kinds of error, in the order of their marks.
     pub(super) errors: Vec<&'a str>,
-    /// The runs that it tells of.
-    pub(super) told: Vec<&'a Record>,
 }
 
 /// A panel for every kind of solver that there are runs of.
 pub(super) fn panels<'a>(records: impl IntoIterator<Item = &'a Record>, speed: &Speed) -> Vec<Panel<'a>> {
     let records: Vec<&Record> = records.into_iter().collect();
-    let panel =
-        |name| Panel::of(name, records.iter().filter(|r| panel_of(r.scheme()) == name).copied().collect(), speed);
+    let panel = |name| {
+        Panel::of(name, &records.iter().filter(|r| panel_of(r.scheme()) == name).copied().collect::<Vec<_>>(), speed)
+    };
     PANELS.into_iter().map(panel).filter(|panel| !panel.lines.is_empty()).collect()
 }
 
@@ -97,7 +96,7 @@ fn panel_of(scheme: Scheme) -> &'static str {
 }
 
 impl<'a> Panel<'a> {
-    fn of(name: &'static str, told: Vec<&'a Record>, speed: &Speed) -> Self {
+    fn of(name: &'static str, told: &[&'a Record], speed: &Speed) -> Self {
         let has = |case: &&str| told.iter().any(|r| r.case == **case);
         let cases: Vec<&str> = cases::all().iter().map(|case| case.name).filter(has).collect();
         let mut errors = distinct(told.iter().filter_map(|r| kind_of_error(r)));
@@ -127,7 +126,7 @@ impl<'a> Panel<'a> {
                 }
             }
         }
-        Self { name, cases, numbers, lines, errors, told }
+        Self { name, cases, numbers, lines, errors }
     }
 
     /// The table, with the cases in columns whose titles `title` links; on a page, cells have links too.

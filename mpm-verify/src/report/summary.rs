@@ -56,7 +56,7 @@ fn body(document: &mut Document, summary: &Summary, speed: &Speed, programs: &Sh
     document.table("", programs.clone());
     failures(document, summary);
     for basis in criteria::BASES {
-        let (table, _) = criteria::remedies(basis).fill(summary.records());
+        let table = criteria::remedies(basis).fill(summary.records());
         section(document, format!("Remedies against criteria, {basis}"), table);
     }
     for study in &summary.cases {

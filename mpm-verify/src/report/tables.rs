@@ -69,27 +69,14 @@ impl Page {
 
     /// The summary of all nights.
     fn gist(file: PathBuf, rows: &[rows::Row]) -> Result<Self, Error> {
-        let mut nights = Sheet::new(["case", "runs", "oldest night", "newest", "programs"]);
-        let mut studies = Vec::new();
-        for case in cases::all() {
-            let own = || rows.iter().filter(|row| row.case == case.name);
-            let (Some(oldest), Some(newest)) = (own().map(|r| r.night).min(), own().map(|r| r.night).max()) else {
-                continue;
-            };
-            let records: Vec<Record> = own().filter_map(rows::Row::record).collect();
-            let programs = distinct(own().map(|row| &*row.program)).len();
-            nights = nights.with([vec![
-                case.name.to_owned(),
-                records.len().to_string(),
-                oldest.to_string(),
-                newest.to_string(),
-                programs.to_string(),
-            ]]);
-            let mut study = CaseStudy::new(case.name, records);
+        let studied = |case: &Case| {
+            let own = rows.iter().filter(|row| row.case == case.name).filter_map(rows::Row::record);
+            let mut study = CaseStudy::new(case.name, own.collect());
             study.convergence = convergence(case, &study.records);
-            studies.push(study);
-        }
-        let text = summary::of_rows(studies, &nights)?;
+            study
+        };
+        let studies = cases::all().iter().map(studied).filter(|study| !study.records.is_empty());
+        let text = summary::of_rows(studies.collect(), &programs(&dated(rows)))?;
         if text.len() > MOST_GIST {
             return Err(Error::file(&file, format!("{} bytes where {MOST_GIST} are allowed", text.len())));
         }
@@ -151,21 +138,39 @@ impl Page {
     }
 }
 
-/// Every table by its name, in Markdown, with the oldest of the runs that it tells of.
-fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
-    let kept: Vec<(Record, Date)> = rows.iter().filter_map(|row| Some((row.record()?, row.night))).collect();
-    let records = || kept.iter().map(|(r, _)| r);
-    let oldest = |told: &[&Record]| {
-        let is_told = |r: &Record| told.iter().any(|t| std::ptr::eq(*t, r));
-        let oldest = kept.iter().filter(|(r, _)| is_told(r)).min_by_key(|(_, night)| *night);
-        oldest.map_or_else(String::new, |(r, night)| {
-            let program = &r.version.source;
-            format!("\n*Oldest run: night of {night}, program {program}.*\n")
-        })
+fn dated(rows: &[rows::Row]) -> Vec<(Record, Date)> {
+    rows.iter().filter_map(|row| Some((row.record()?, row.night))).collect()
+}
+
+/// The programs whose runs are shown, the newest first, with how many are planned for a night, and how many beyond.
+fn programs(kept: &[(Record, Date)]) -> Sheet {
+    let nightly = cases::all().iter().flat_map(|c| c.runs(Tier::Nightly).into_iter().map(|s| (c.name, s.folder())));
+    let nightly: BTreeSet<(&str, String)> = nightly.collect();
+    let mut all = distinct(kept.iter().map(|(r, night)| (std::cmp::Reverse(*night), &*r.version.source)));
+    all.sort_unstable();
+    let row = |(night, program): (std::cmp::Reverse<Date>, &str)| {
+        let of = |(r, at): &&(Record, Date)| *at == night.0 && r.version.source == program;
+        let own = || kept.iter().filter(of).map(|(r, _)| r);
+        let in_night = own().filter(|r| nightly.contains(&(&*r.case, r.folder()))).count();
+        let names = distinct(own().map(|r| &*r.case)).join(", ");
+        vec![
+            night.0.to_string(),
+            program.to_owned(),
+            in_night.to_string(),
+            (own().count() - in_night).to_string(),
+            names,
+        ]
     };
+    Sheet::new(["night", "program", "runs of a night", "larger ones", "cases"]).with(all.into_iter().map(row))
+}
+
+/// Every table by its name, in Markdown.
+fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
+    let kept = dated(rows);
+    let records = || kept.iter().map(|(r, _)| r);
     let table = |table: &ResultTable, case: Option<&str>| {
-        let (sheet, told) = table.fill(records().filter(|r| case.is_none_or(|case| r.case == case)));
-        (table.name.clone(), sheet.markdown() + &oldest(&told))
+        let sheet = table.fill(records().filter(|r| case.is_none_or(|case| r.case == case)));
+        (table.name.clone(), sheet.markdown())
     };
     let studies = cases::all()
         .iter()
@@ -188,15 +193,15 @@ fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
     };
     let unless = |empty: bool, text: String| if empty { String::new() } else { text };
     let prices = format!("{}\n{}\n", speed.table().markdown(), wrapped(&speed.advice()));
-    let (sheet, told, advice) = rivals::table(&records().collect::<Vec<_>>())?;
-    let rivals = format!("{}\n{}\n{}", sheet.markdown(), wrapped(&advice), oldest(&told));
+    let (sheet, advice) = rivals::table(&records().collect::<Vec<_>>())?;
+    let rivals = format!("{}\n{}\n", sheet.markdown(), wrapped(&advice));
     let panels = map::panels(records(), &speed);
     let map = map::PANELS.map(|name| {
         let text = panels.iter().find(|panel| panel.name == name).map(|panel| {
             let page = |case: &str| Text::link(case, format!("{case}.md"));
             let marks = panel.marks().markdown();
             let below = if marks.is_empty() { marks } else { format!("\n{marks}\n") };
-            panel.table(page, false).markdown() + &below + &oldest(&panel.told)
+            panel.table(page, false).markdown() + &below
         });
         (format!("map-{name}"), text.unwrap_or_default())
     });
@@ -206,7 +211,8 @@ fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
     let costs = [
         ("outcomes", outcomes),
         (speed::NAME, unless(speed.is_empty(), prices)),
-        (rivals::NAME, unless(told.is_empty(), rivals)),
+        (rivals::NAME, unless(sheet.rows.is_empty(), rivals)),
+        ("programs", programs(&kept).markdown()),
     ];
     Ok(of_cases.chain(over_cases).chain(costs.map(|(name, text)| (name.to_owned(), text))).collect())
 }
@@ -256,8 +262,6 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
 | scheme | h = 0.4 m | 0.2 m | 0.1 m | CPU (s), h = 0.4 m | CPU (s), 0.2 m | CPU (s), 0.1 m |
 |---|---|---|---|---|---|---|
 | gimp none |  | 2.600 (2.500 … 2.750) | breaks down at 1.50 s |  | 1.50 |  |
-
-*Oldest run: night of 2026-01-01, program def.*
 <!-- end -->
 ";
         assert_eq!(filled, format!("# Title\n\n{table}\nEnd.\n"));
