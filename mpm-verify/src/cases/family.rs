@@ -98,7 +98,8 @@ mod tests {
                     night.iter().filter(like).count()
                 };
                 for transfer in [TransferName::Apic, TransferName::Xpic2] {
-                    assert!(levels(transfer, &[]) >= 4, "{name} {scheme} {transfer}");
+                    // A ladder takes three.
+                    assert!(levels(transfer, &[]) >= 3, "{name} {scheme} {transfer}");
                 }
                 for ppc in ["ppc_per_direction=3", "ppc_per_direction=4"] {
                     let found = levels(TransferName::Flip, &[ppc]);
