@@ -163,7 +163,7 @@ fn plan() -> Plan {
         .each(Nightly, "h0.05", &both, ["speed=0.1", "speed=0.1 step_factor=10", "speed=0.02 step_factor=100"])
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03", "0"].map(|b| format!("lumped={b} step_factor=100")))
         .each(Nightly, "h0.05", &midpoint, ["1", "0.03"].map(|b| format!("lumped={b} offset=0.1 step_factor=100")))
-        .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.2", "offset=0.5", "offset=0.65"])
+        .each(Nightly, "h0.05", &all, ["offset=0.1", "offset=0.5", "offset=0.65"])
         .each(Nightly, "h0.05", &blended, ["flip=0.99", "flip=0", "flip=0.99 offset=0.1", "flip=0 offset=0.1"])
         .each(Nightly, "h0.05", &explicit, bodies)
 }

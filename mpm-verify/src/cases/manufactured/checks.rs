@@ -191,6 +191,8 @@ struct Ladder {
     /// Largest ratio of the error at a level to that at the one before; NaN if a run has none: one that broke down
     /// must not be lost among the others.
     worst_ratio: f64,
+    /// A run broke down, which `completes` judges.
+    broke: bool,
 }
 
 impl Ladder {
@@ -205,6 +207,7 @@ impl Ladder {
             claim: claims(&Setup::of_record(last).ok()?),
             about: about.trim_end().to_owned(),
             order,
+            broke: runs.iter().any(|r| r.status == Status::Failed),
             worst_ratio: if errors.iter().any(|e| e.is_nan()) { f64::NAN } else { ratios.fold(0.0, f64::max) },
         })
     }
@@ -248,8 +251,7 @@ pub(in crate::cases) fn orders(of: &[(Metric, Claims)]) -> [Check; 4] {
         }),
         on_ladders(Gate::known_limit("stalls", stalls), of, |about, l| {
             let Claim::Stalls(below, why) = l.claim else { return None };
-            // Without an order a run of the ladder broke down, which `completes` judges.
-            l.order.is_finite().then(|| Finding::at_most(about, l.order, below, why))
+            (!l.broke).then(|| Finding::at_most(about, l.order, below, why))
         }),
     ]
 }

@@ -104,8 +104,8 @@ fn plan() -> Plan {
         .runs(Pr, "n64", &sound, "mach=1")
         .runs(Nightly, "n64", &some, "mach=1")
         .runs(Pr, "n64", &sound, "mach=2")
-        .runs(Nightly, "n64 n128 n256", &some, "mach=0.1")
-        .runs(Nightly, "n64 n128 n256", &sound, "mach=1")
+        .runs(Nightly, "n64 n128", &some, "mach=0.1")
+        .runs(Nightly, "n64 n128", &sound, "mach=1")
         .runs(Nightly, "n64 n128", &sound, "mach=2")
 }
 
