@@ -313,7 +313,7 @@ fn tables() -> Vec<ResultTable> {
         Pair::number_of(r, |d| d.step_factor.value()) == 100.0
             && r.changes_none_but(&["step_factor", "offset", "lumped"])
     };
-    let explicit = [0.0, 0.1, 0.2].into_iter().flat_map(|offset| {
+    let explicit = [0.0, 0.1].into_iter().flat_map(|offset| {
         [
             Column::metric(format!("energy, {offset} m"), ENERGY_END, percent(2)).of(at(offset)),
             Column::metric("speed", RESTITUTION, fixed(3)).of(at(offset)),
