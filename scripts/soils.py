@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The size of the box of a strip load, and factors of an infinite slope: what docs/soils.md has beside its case.
+"""The size of the box of a strip load, and factors of slopes: what docs/soils.md has beside its case.
 
 usage: soils.py PROGRAM
 """
@@ -82,6 +82,35 @@ def infinite_slope():
             print(f"| {10 / ratio:g} | {name} | {' | '.join(found)} |", flush=True)
 
 
+def slope_with_water():
+    """Factors at which the slope has moved by a fiftieth of its height, wet and dry, by cells over the height."""
+
+    def moves(text, factor):
+        """Whether it moves so far at a factor, or breaks down."""
+        friction = math.degrees(math.atan(math.tan(math.radians(25)) / factor))
+        text = text.replace("cohesion_pa = 5000", f"cohesion_pa = {5000 / factor}")
+        text = re.sub(r"(friction|dilation)_deg = 25", rf"\1_deg = {friction}", text)
+        out, _ = run(text)
+        file = out / "series.csv"
+        path = columns(file)["displacement_max (m)"] if file.exists() and file.read_text().count("\n") > 1 else []
+        return len(path) < 10 or max(path) > 5 / 50
+
+    print("| cells | wet | dry |\n|---|---|---|")
+    for ratio in [1, 0.5]:
+        found = []
+        for wet in [True, False]:
+            text = changed("slope-with-water", ratio)
+            if not wet:
+                text = re.sub(r"(?s)\[water\].*?(?=\[\[loads)", "", text).replace("poro-gimp-two-grid", "quasi-static-gimp-none")
+            low, high = 1.0, 2.5
+            while high - low > 0.02:
+                middle = 0.5 * (low + high)
+                low, high = (low, middle) if moves(text, middle) else (middle, high)
+            found.append(f"{low:.2f} … {high:.2f}")
+        print(f"| {10 / ratio:g} | {' | '.join(found)} |", flush=True)
+
+
 if __name__ == "__main__":
     strip_load()
     infinite_slope()
+    slope_with_water()
