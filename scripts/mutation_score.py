@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The score of the mutants that were tried, with its interval, into docs/mutants.md.
+"""The score of the mutants that were tried, with its interval, into docs/notes/mutants.md.
 
     scripts/mutation_score.py TABLE FOLDER...     the table's name there, and folders that hold mutants.out of cargo-mutants
 
@@ -12,7 +12,7 @@ import math
 import pathlib
 import sys
 
-PAGE = pathlib.Path(__file__).parent.parent / "docs/mutants.md"
+PAGE = pathlib.Path(__file__).parent.parent / "docs/notes/mutants.md"
 BEGIN, END = "<!--score {}-->", "<!--end of score-->"
 Z = 1.959964
 

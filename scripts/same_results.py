@@ -61,9 +61,9 @@ def fresh(folder):
 def collect_program(folder, program):
     """What the program says of its cases and its command line; returns the metrics of every case, with units."""
     folder, metrics = fresh(folder), {}
-    (folder / "list.json").write_text(output([program, "list", "--format", "json"]))
+    (folder / "list.json").write_text(output([program, "list", "--json"]))
     for tier in TIERS:
-        (folder / f"plan-{tier}.json").write_text(output([program, "list", "--tier", tier, "--format", "json"]))
+        (folder / f"plan-{tier}.json").write_text(output([program, "list", "--tier", tier, "--json"]))
     for case in json.loads((folder / "list.json").read_text()):
         text = output([program, "explain", case["case"], "--json"])
         (folder / f"explain-{case['case']}.json").write_text(text)

@@ -135,7 +135,8 @@ pub(crate) fn folders_in(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(entries)
 }
 
-fn entries(folder: &Path) -> Result<Vec<PathBuf>, Error> {
+/// The paths in a folder, if it is there, by name.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, Error> {
     if !folder.exists() {
         return Ok(Vec::new());
     }

@@ -5,7 +5,7 @@ pub(crate) use crate::case::Tier::{Long, Nightly, Pr, Quick};
 pub(crate) use crate::case::{Begin, Case, Family, FieldView, Plan};
 pub(crate) use crate::check::{Check, Finding};
 pub(crate) use crate::demand::{CheckOf, Demand, Held, Over, Quantity, SLACK, same_but, same_but_scheme};
-pub(crate) use crate::draw::style::{history, series};
+pub(crate) use crate::draw::style::{LEVEL_DASHES, history, series};
 pub(crate) use crate::draw::{Dash, FieldFigure, FieldPanel, Marker, ReferenceLine, Series, draw_fields, signed};
 pub(crate) use crate::error::Error;
 pub(crate) use crate::exact::{Exact, Material};

@@ -31,6 +31,14 @@ impl Sheet {
         Self::new(column(0)).with((1..self.head.len()).map(column))
     }
 
+    /// Without columns whose cells are all empty.
+    pub(crate) fn dense(&self) -> Self {
+        let says = |k: &usize| self.rows.iter().any(|row| !["", "–"].contains(&&*row[*k]));
+        let kept: Vec<usize> = (0..self.head.len()).filter(says).collect();
+        let of = |line: &Vec<String>| kept.iter().map(|k| line[*k].clone()).collect();
+        Self { head: of(&self.head), rows: self.rows.iter().map(of).collect() }
+    }
+
     pub(crate) fn markdown(&self) -> String {
         let line = |cells: &Vec<String>| {
             let cells: Vec<String> = cells.iter().map(|c| c.replace('|', "\\|")).collect();

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// The file, and the page that is made of it, from the root of the repository.
 pub(crate) const FILE: &str = "mpm-verify/assets/kills.csv";
-pub(crate) const PAGE: &str = "docs/kill-matrix.md";
+pub(crate) const PAGE: &str = "docs/notes/kill-matrix.md";
 
 const HEAD: &str = "fault,case,checks";
 
@@ -117,7 +117,7 @@ impl Kills {
 
 const INTRODUCTION: &str = "# Which check sees which fault
 
-Written by `just mutants` from its own runs: every [seeded fault](verification.md#seeded-faults) in all runs that
+Written by `just mutants` from its own runs: every [seeded fault](../verification.md#seeded-faults) in all runs that
 reach the line it breaks, and the checks that go red there. Three sets of runs that take seconds each, a landslide and
 two of a slope that is cut, are made for their own faults only. A check is named once a case, however many of the
 runs see the fault by it.

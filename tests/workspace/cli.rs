@@ -68,7 +68,7 @@ fn unknown_names_are_refused_with_those_that_exist() {
     refused(&["run", "cook", "--set", "nu=0.3"], &["parameter", "nu", "poisson_ratio"]);
     refused(&["verify", "--tier", "weekly"], &["tier", "quick, pr, nightly, long"]);
     refused(&["list", "--tier", "weekly"], &["tier"]);
-    refused(&["list", "--format", "xml"], &["format", "text", "json"]);
+    refused(&["verify", "--tier", "nigh"], &["'nigh' for '--tier <TIER>' tip: a similar value exists: 'nightly'"]);
     refused(&["run", "cook", "--frobnicate"], &["--frobnicate"]);
     refused(&["solve"], &["solve"]);
 }
@@ -233,7 +233,7 @@ fn a_folder_that_cannot_be_written_is_refused_before_anything_runs() {
 fn list_names_everything() {
     let runs = stdout(&mpm_verify(&["list", "--tier", "quick"]));
     assert!(runs.contains("cook gimp-none-flip/h2\n"), "{runs}");
-    let listed = mpm_verify(&["list", "--format", "json", "--tier", "pr"]);
+    let listed = mpm_verify(&["list", "--json", "--tier", "pr"]);
     let cases: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
     assert_eq!(cases[0]["case"], "cook");
     assert_eq!(cases[0]["schemes"].as_array().unwrap().len(), 28);

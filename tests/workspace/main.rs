@@ -16,6 +16,8 @@ mod gate;
 mod kills;
 mod language;
 mod metamorphic;
+#[path = "../../mpm-verify/examples/own_remedy.rs"]
+mod own_remedy;
 mod ranges;
 mod readme;
 mod reports;

@@ -139,7 +139,8 @@ impl Setting {
         let seen = volume.conjugate() * volume.transpose();
         let filtered = if kept > ROUNDING { seen.clone() / Complex::from(kept) } else { seen.clone() * zero };
         let volumes = match self.scheme.remedy {
-            RemedyName::None => traces.clone(),
+            // The remedy of another program has no analysis here.
+            RemedyName::None | RemedyName::Own => traces.clone(),
             RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::Other(..) => seen,
             RemedyName::FbarConsistent => {
                 let sharp = 1.0 - (1.0 - UNSEEN) * (1.0 - kept).powi(2);

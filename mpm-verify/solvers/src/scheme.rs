@@ -3,7 +3,9 @@
 use mpm_core::explicit::Remedy;
 use mpm_core::explicit::remedy::{Fbar, Form, Onto, Standard};
 use serde::{Deserialize, Serialize};
+use std::any::Any;
 use std::fmt;
+use std::sync::OnceLock;
 use thiserror::Error;
 
 /// A name that stands for nothing.
@@ -24,6 +26,9 @@ pub enum NameError {
         "scheme \"{0}\" is not of the form basis-remedy-transfer, solver-basis-remedy or poro-basis-space, as gimp-fbar-consistent-flip, quasi-static-gimp-none or poro-gimp-two-grid; `explain` lists those of a case"
     )]
     Form(String),
+    /// A second remedy of one's own.
+    #[error("the remedy `own` is set already")]
+    SetAlready,
 }
 
 /// Basis functions.
@@ -57,6 +62,19 @@ pub enum RemedyName {
     FbarConsistent,
     /// Another member of the family: its form, and the functions that average.
     Other(Form, Onto),
+    /// A remedy of the program that links this package: see [`set_own_remedy`].
+    Own,
+}
+
+/// The remedy `own` of runs in `D` dimensions, once it is set.
+static OWN: OnceLock<Box<dyn Any + Send + Sync>> = OnceLock::new();
+
+/// Sets the remedy that `own` stands for in explicit runs of `D` dimensions of this process: once, for one `D`.
+///
+/// # Errors
+/// It is set already.
+pub fn set_own_remedy<const D: usize>(make: fn() -> Box<dyn Remedy<D>>) -> Result<(), NameError> {
+    OWN.set(Box::new(make)).map_err(|_| NameError::SetAlready)
 }
 
 /// Transfers.
@@ -91,17 +109,25 @@ impl RemedyName {
     /// The remedy.
     #[must_use]
     pub fn build<const D: usize>(self) -> Box<dyn Remedy<D>> {
-        match self.fbar() {
-            Some(fbar) => Box::new(fbar),
-            None => Box::new(Standard),
+        match (self.fbar(), self.own()) {
+            (Some(fbar), _) => Box::new(fbar),
+            (None, Some(make)) => make(),
+            (None, None) => Box::new(Standard),
         }
+    }
+
+    /// Maker of the remedy set by [`set_own_remedy`], if this is its name and it is of `D` dimensions.
+    #[must_use]
+    pub fn own<const D: usize>(self) -> Option<fn() -> Box<dyn Remedy<D>>> {
+        let own = OWN.get().filter(|_| self == Self::Own)?;
+        own.downcast_ref().copied()
     }
 
     /// The member of the F̄ family, if it is one.
     #[must_use]
     pub fn fbar(self) -> Option<Fbar> {
         let (form, onto) = match self {
-            Self::None => return None,
+            Self::None | Self::Own => return None,
             Self::FbarRecursive => (Form::Recursive, Onto::Basis),
             Self::FbarTotal => (Form::Total, Onto::Basis),
             Self::FbarRate => (Form::Rate, Onto::Basis),
@@ -152,7 +178,7 @@ plain_text!(BasisName, "basis", [
     Self::Linear => "linear", Self::Gimp => "gimp",
     Self::Bspline2 => "bspline2", Self::Bspline3 => "bspline3", Self::Q8 => "q8"]);
 plain_text!(RemedyName, "remedy", [
-    Self::None => "none", Self::FbarRecursive => "fbar-recursive",
+    Self::None => "none", Self::Own => "own", Self::FbarRecursive => "fbar-recursive",
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
     Self::FbarConsistent => "fbar-consistent",
     Self::Other(Form::Bbar, Onto::Basis) => "bbar",

@@ -7,7 +7,7 @@ pub use mpm_bench::{GROUPS, Options, Peers};
 use crate::case::find_level;
 use crate::cases;
 use crate::error::Error;
-use crate::files::{make_folder, read_versioned, write_dense_json};
+use crate::files::{make_folder, write_dense_json};
 use crate::job::Job;
 use crate::parameter::Parameters;
 use crate::record::{Machine, Version};
@@ -15,14 +15,14 @@ use crate::scheme::Scheme;
 use crate::spec::RunSpec;
 use mpm_bench::{Measurements, Run};
 use mpm_core::{Memory, Spent};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::path::Path;
 
 /// Version of `bench.json`.
 const SCHEMA: u32 = 1;
 
 /// The content of `bench.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 struct Bench {
     schema: u32,
     machine: Machine,
@@ -30,15 +30,6 @@ struct Bench {
     processor: Option<String>,
     version: Version,
     measured: Measurements,
-}
-
-/// Draws the pictures of the measurements in `bench.json` of the folder `measured` into `out`.
-///
-/// # Errors
-/// The file is missing or damaged, or a picture can't be written.
-pub fn draw(measured: &Path, out: &Path) -> Result<(), Error> {
-    let bench: Bench = read_versioned(&measured.join("bench.json"), SCHEMA)?;
-    summary::draw_scaling(&bench.measured, out)
 }
 
 /// Measures what the options ask for, writes `bench.json`, the tables and the pictures into `out` and returns the

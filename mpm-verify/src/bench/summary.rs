@@ -195,7 +195,7 @@ fn write_rows(bench: &Measurements, out: &Path) -> Result<(), Error> {
 }
 
 /// Draws the cost over the number of particles, if it was measured.
-pub(super) fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error> {
+fn draw_scaling(bench: &Measurements, out: &Path) -> Result<(), Error> {
     let names = ["W2", "W2F", "W3", "W3F"];
     let markers = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
     let series = names.into_iter().zip(markers).enumerate().map(|(k, (name, marker))| {

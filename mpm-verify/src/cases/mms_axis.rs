@@ -81,7 +81,6 @@ fn tables() -> Vec<ResultTable> {
     const TWO: &str = "amplitude=0.02";
     const FOUR: &str = "amplitude=0.02 ppc_per_direction=4";
     vec![
-        tables::own_orders("mms-axis"),
         tables::orders("mms-axis-rules", tables::is_of_rule),
         tables::cost("mms-axis-cost", ["n16", "n32", "n64"], |r| {
             let own = r.changes_none_but(&[CFL.name]);
@@ -89,19 +88,8 @@ fn tables() -> Vec<ResultTable> {
         }),
         tables::orders("mms-axis-transfers", |r| r.is_default() && !is_flip(r)),
         tables::price("mms-axis-price", ["n8", "n16", "n32", "n64", "n128"], ""),
-        tables::errors(
-            "mms-axis-crossing",
-            [
-                ("n8, 2 per direction", "n8", TWO),
-                ("n16", "n16", TWO),
-                ("n32", "n32", TWO),
-                ("n64", "n64", TWO),
-                ("n8, 4 per direction", "n8", FOUR),
-                ("n16", "n16", FOUR),
-                ("n32", "n32", FOUR),
-                ("n64", "n64", FOUR),
-            ],
-        ),
+        tables::errors("mms-axis-crossing", ["n8", "n16", "n32", "n64"].map(|n| (n, n, TWO))),
+        tables::errors("mms-axis-crossing-of-four", ["n8", "n16", "n32", "n64"].map(|n| (n, n, FOUR))),
         tables::errors(
             "mms-axis-particles",
             [

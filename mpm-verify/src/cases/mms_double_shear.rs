@@ -32,7 +32,6 @@ pub(super) fn case() -> Case {
         (r.is_default() && scheme && r.level == "n64").then_some(NULL_SPACE)
     })
     .pictures(|gallery| mean_stress(gallery, "n64", 100.0))
-    .table(tables::own_orders("mms-double-shear"))
     .table(tables::locking(
         "mms-double-shear-locking",
         [("n8, 0.4999", "n8", ""), ("n16, 0.4999", "n16", ""), ("n32, 0.4999", "n32", "")],

@@ -33,7 +33,6 @@ pub(super) fn case() -> Case {
     .limit("The steps are those of ν = 0.499.")
     .checks(of_motion(of_vortex, VORTEX))
     .checks(locking())
-    .table(tables::own_orders("mms-swirl"))
     .table(tables::locking("mms-swirl-locking", [("n8", "n8", ""), ("n16", "n16", "")]))
     .table(tables::pressure("mms-swirl-pressure", ["n8", "n16", "n32"]))
 }

@@ -73,7 +73,6 @@ fn plan() -> Plan {
 
 fn tables() -> Vec<ResultTable> {
     vec![
-        tables::own_orders("mms-vortex-box"),
         tables::locking(
             "mms-vortex-box-locking",
             [

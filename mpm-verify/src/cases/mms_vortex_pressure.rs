@@ -25,7 +25,6 @@ pub(super) fn case() -> Case {
     .checks(of_motion(of_vortex, VORTEX))
     .checks(locking())
     .sweep(LOCKING_CURVE)
-    .table(tables::own_orders("mms-vortex-pressure"))
     .table(tables::locking(
         "mms-vortex-pressure-locking",
         [

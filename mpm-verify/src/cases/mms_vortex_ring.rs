@@ -41,7 +41,6 @@ pub(super) fn case() -> Case {
     .limit("At the angle of 45° of the literature the shear reaches 4.8: particles on fixed domains lose touch and nothing converges (set angle=0.7853981633974483).")
     // Half a wave across the ring.
     .checks(of_motion(claim, Wave::Shear(|_| TAU)))
-    .table(tables::own_orders("mms-vortex-ring"))
     .table(tables::errors("mms-vortex-ring-large", ["n8", "n16", "n32"].map(|n| (n, n, EIGHTH))))
 }
 

@@ -38,7 +38,6 @@ pub(super) fn case() -> Case {
     .checks([stress_order(claim)])
     .checks(order_in_time())
     .begun(begin::<WallPressure>)
-    .table(tables::own_orders("mms-wall-pressure"))
     .table(tables::orders("mms-wall-pressure-rules", tables::is_of_rule))
     .table(tables::orders("mms-wall-pressure-wall-line", |r| r.changes("wall=wall-line") && is_flip(r)))
     .table(tables::errors("mms-wall-pressure-large", large))

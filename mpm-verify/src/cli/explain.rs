@@ -10,19 +10,18 @@ pub(crate) struct List {
     /// List the runs of this tier
     #[arg(long, value_parser = tier())]
     tier: Option<Tier>,
-    /// Output format
-    #[arg(long, default_value = "text", value_parser = ["text", "json"])]
-    format: String,
+    /// Print JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl List {
     pub(super) fn execute(self) -> Result<ExitCode, Error> {
-        if self.format == "json" {
-            say_json(&describe::list_json(cases::all(), self.tier))?;
-        } else {
-            let goldens = golden::place(None);
-            say(describe::list_text(cases::all(), self.tier, |case| golden::pairs(&goldens, case).ok()))?;
+        if self.json {
+            return say_json(&describe::list_json(cases::all(), self.tier)).map(|()| ExitCode::Good);
         }
+        let goldens = golden::place(None);
+        say(describe::list_text(cases::all(), self.tier, |case| golden::pairs(&goldens, case).ok()))?;
         Ok(ExitCode::Good)
     }
 }

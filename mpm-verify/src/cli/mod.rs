@@ -38,10 +38,30 @@ use std::time::Duration;
 /// success, 1 a check against the truth failed, 2 usage or input error, 3 drift from the goldens only, 4 unexpected
 /// breakdown of a run.
 #[derive(Parser)]
-#[command(version, max_term_width = 100, arg_required_else_help = true)]
+#[command(version, max_term_width = 100, arg_required_else_help = true, before_help = commands())]
+#[command(help_template = "{about-with-newline}\n{usage-heading} {usage}\n\n{before-help}Options:\n{options}")]
 pub(crate) struct Cli {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+/// The commands by purpose.
+const COMMANDS: [(&str, &str); 3] = [
+    ("Run", "list explain run scene factor exact"),
+    ("Judge", "verify report diff export score board"),
+    ("Maintain", "bless keep tables pictures complete bench completions"),
+];
+
+fn commands() -> String {
+    let all = Command::augment_subcommands(clap::Command::new(""));
+    let line = |command: &clap::Command| {
+        format!("  {:<11} {}\n", command.get_name(), command.get_about().map(ToString::to_string).unwrap_or_default())
+    };
+    let group = |(title, names): (&str, &str)| {
+        let lines = names.split(' ').filter_map(|name| all.find_subcommand(name)).map(line);
+        format!("{title}:\n{}", lines.collect::<String>())
+    };
+    COMMANDS.map(group).join("\n")
 }
 
 /// A positive number of gibibytes.
@@ -84,9 +104,9 @@ pub(crate) enum Command {
     Factor(factor::Factor),
     /// Judge the result of another code and compare it with our runs
     Score(score::Score),
-    /// Set results of several codes, and ours, side by side: error, cost and verdict by one rule
+    /// Compare results of several codes and ours: error, cost and verdict by one rule
     Board(score::Board),
-    /// Write the input of a case for another code: particles, parameters, reference, a form for `score`
+    /// Write the input of a case for another code, with a form for `score`
     Export(score::Export),
     /// Run a tier of cases, judge them and write the report
     Verify(verify::Verify),
@@ -100,15 +120,15 @@ pub(crate) enum Command {
     ///
     /// Pictures that need other runs are listed and left unchanged.
     Pictures(keep::Pictures),
-    /// List planned runs without a stored result (exit code 2) and results from other program versions
+    /// List planned runs without a stored result and results of other programs (exit code 2)
     Complete(keep::Complete),
-    /// Accept changed results as the new golden (refused while a check against the truth fails)
+    /// Accept changed results as the new golden (refused while a TRUTH check fails)
     Bless(bless::Bless),
     /// Compare two report folders: numbers, verdicts, pictures
     Diff(diff::Diff),
     /// Evaluate an exact solution at a reference point, as JSON
     Exact(explain::Exact),
-    /// Measure speed of workloads, problems and laws in turns; with --peers, of other programs too
+    /// Measure the speed of workloads, problems and laws; with --peers, of other programs too
     Bench(bench::Bench),
     /// Print a shell completion script
     Completions(explain::Completions),
@@ -126,30 +146,21 @@ impl Command {
             _ => None,
         }
     }
+}
 
-    pub(crate) fn execute(self) -> Result<ExitCode, Error> {
-        match self {
-            Self::List(command) => command.execute(),
-            Self::Explain(command) => command.execute(),
-            Self::Run(command) => command.execute(),
-            Self::Scene(command) => command.execute(),
-            Self::Factor(command) => command.execute(),
-            Self::Score(command) => command.execute(),
-            Self::Board(command) => command.execute(),
-            Self::Export(command) => command.execute(),
-            Self::Verify(command) => command.execute(),
-            Self::Report(command) => command.execute(),
-            Self::Keep(command) => command.execute(),
-            Self::Tables(command) => command.execute(),
-            Self::Pictures(command) => command.execute(),
-            Self::Complete(command) => command.execute(),
-            Self::Bless(command) => command.execute(),
-            Self::Diff(command) => command.execute(),
-            Self::Exact(command) => command.execute(),
-            Self::Bench(command) => command.execute(),
-            Self::Completions(command) => command.execute(),
+macro_rules! execute {
+    ($($command:ident)*) => {
+        impl Command {
+            pub(crate) fn execute(self) -> Result<ExitCode, Error> {
+                match self { $(Self::$command(command) => command.execute()),* }
+            }
         }
-    }
+    };
+}
+
+execute! {
+    List Explain Run Scene Factor Score Board Export Verify Report Keep Tables Pictures Complete Bless Diff Exact Bench
+    Completions
 }
 
 /// Number of threads: all cores by default.
@@ -213,14 +224,15 @@ impl TypedValueParser for Schemes {
     }
 }
 
-/// An error of the command line's syntax, on one line.
+/// An error of the command line's syntax, on one line: without the list of allowed values if a similar one is named.
 pub(crate) fn of_syntax(error: &clap::Error) -> String {
     let text = error.to_string();
+    let has_tip = text.contains("\n  tip: a similar value");
     let lines: Vec<&str> = text
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage") && !line.starts_with("For more information"))
-        .filter(|line| !line.is_empty())
+        .filter(|line| !(line.is_empty() || has_tip && line.starts_with("[possible values")))
         .collect();
     lines.join(" ").trim_start_matches("error: ").to_owned()
 }
@@ -237,4 +249,21 @@ pub(crate) fn say(text: impl Display) -> Result<(), Error> {
 pub(crate) fn say_json(value: &impl serde::Serialize) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(value).map_err(|e| Error::Input(e.to_string()))?;
     say(text + "\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn help_lists_every_command_once_on_a_line_of_its_own() {
+        let all = Command::augment_subcommands(clap::Command::new(""));
+        let mut names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
+        let mut grouped: Vec<&str> = COMMANDS.iter().flat_map(|(_, names)| names.split(' ')).collect();
+        names.sort_unstable();
+        grouped.sort_unstable();
+        assert_eq!(grouped, names);
+        let long: Vec<String> = commands().lines().filter(|l| l.chars().count() > 100).map(str::to_owned).collect();
+        assert!(long.is_empty(), "{long:?}");
+    }
 }

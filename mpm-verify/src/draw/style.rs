@@ -10,6 +10,9 @@ const MOST_CURVES: usize = 8;
 /// Panels of a picture, at most.
 const MOST_PANELS: usize = 6;
 
+/// Lines of levels that share axes, the finest first.
+pub(crate) const LEVEL_DASHES: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dotted];
+
 /// The curve of a scheme: its colour tells the remedy, or the space of the pressure, and the kind of solver, its marker the
 /// basis, its line the transfer (solid FLIP, dashed APIC, dotted XPIC; markers of the latter two are hollow).
 pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
@@ -26,7 +29,7 @@ pub(crate) fn series(scheme: Scheme, points: Vec<(f64, f64)>) -> Series {
         (_, RemedyName::FbarTotal) => 2,
         (_, RemedyName::FbarRate) => 0,
         (_, RemedyName::FbarConsistent) => 3,
-        (_, RemedyName::Other(..)) => 7,
+        (_, RemedyName::Other(..) | RemedyName::Own) => 7,
     };
     let marker = match scheme.basis() {
         BasisName::Gimp => Marker::Circle,

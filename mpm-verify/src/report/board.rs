@@ -8,10 +8,9 @@ use crate::score::board::{Line, Method, OWN, Standing, read};
 
 /// Longest name of a code beside a score.
 const LONGEST_BRIEF: usize = 36;
-/// Longest name of a method in a legend.
-const LONGEST: usize = 60;
-/// Markers of the methods of a code, full and then hollow.
-const MARKERS: [Marker; 4] = [Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond];
+/// Colours of other codes, and their markers once the colours are used up.
+const COLOURS: [usize; 5] = [0, 2, 4, 5, 7];
+const MARKERS: [Marker; 3] = [Marker::Square, Marker::Triangle, Marker::Diamond];
 /// Schemes of ours beside the others: standard MPM, the published F̄, and what we recommend.
 const OURS: [RemedyName; 3] = [RemedyName::None, RemedyName::FbarRecursive, RemedyName::FbarConsistent];
 
@@ -139,28 +138,32 @@ pub fn markdown(methods: &[Method]) -> String {
 pub fn write(methods: &[Method], folder: &Path) -> Result<(), Error> {
     make_folder(folder)?;
     write_json(&folder.join("board.json"), &json!({"schema": 1, "methods": methods}))?;
+    let others = distinct(methods.iter().filter(|m| m.code != OWN).map(|m| &*m.code));
     let chart = |case: &str| {
         let mut chart = Chart::new(case, ["processor time (s)", "error over tolerance (–)"], Vec::new());
         (chart.x_scale, chart.y_scale) = (Scale::Log10, Scale::Log10);
         chart.reference_lines.push(ReferenceLine { name: "tolerance".to_owned(), value: 1.0, band: None });
-        let others = methods.iter().filter(|m| m.case == case).map(|m| &*m.code);
-        for (k, code) in distinct(std::iter::once(OWN).chain(others)).into_iter().enumerate() {
-            for (nth, m) in methods.iter().filter(|m| m.case == case && m.code == code).enumerate() {
-                let points = m.runs.iter().filter_map(|line| Some((line.cpu_s?, line.worst.as_ref()?.0))).collect();
-                let name = format!("{}: {}", m.code, m.words).chars().take(LONGEST).collect();
-                let dash = if nth < MARKERS.len() { Dash::Solid } else { Dash::Dashed };
-                chart.series.push(Series { name, points, colour: k, marker: MARKERS[nth % MARKERS.len()], dash });
-            }
-            chart.series.retain(|curve| !curve.points.is_empty());
+        let mut show = |name: &str, (colour, marker), is_shown: &dyn Fn(&Method) -> bool| {
+            let own = methods.iter().filter(|m| m.case == case && is_shown(m)).flat_map(|m| &m.runs);
+            let points = own.filter_map(|line| Some((line.cpu_s?, line.worst.as_ref()?.0))).collect();
+            chart.series.push(Series { name: name.to_owned(), points, colour, marker, dash: Dash::None });
+        };
+        for (colour, remedy) in [6, 1, 3].into_iter().zip(OURS) {
+            let is_of = |m: &Method| m.code == OWN && m.words.split(' ').any(|word| word == remedy.text());
+            let name = if remedy == RemedyName::None { "standard" } else { remedy.text() };
+            show(&format!("{OWN}, {name}"), (colour, Marker::Circle), &is_of);
+        }
+        for (k, code) in others.iter().enumerate() {
+            show(code, (COLOURS[k % COLOURS.len()], MARKERS[k / COLOURS.len() % MARKERS.len()]), &|m| m.code == *code);
         }
         chart
     };
     let mut charts: Vec<Chart> = distinct(methods.iter().map(|m| m.case)).into_iter().map(chart).collect();
-    charts.retain(|chart| !chart.series.is_empty());
+    charts.retain(|chart| chart.series.iter().any(|curve| !curve.points.is_empty()));
     let mut page = Document::new("MPM codes side by side");
     if !charts.is_empty() {
         let [file, caption] = ["board.png", "Error over its tolerance, over processor time."].map(str::to_owned);
-        draw_charts(&folder.join(&file), &charts, 2)?;
+        draw_charts(&folder.join(&file), &charts, 3)?;
         page.picture(Shown::of(&Picture { file, caption }, folder));
     }
     for (name, sheet) in tables(methods) {

@@ -2,8 +2,7 @@
 
 use super::prelude::*;
 use super::speed::Speed;
-use super::{convergence, draw_own, rows, solvers, sweep, together};
-use crate::bench;
+use super::{board, convergence, draw_own, rows, solvers, sweep, together};
 use crate::files::read;
 use image::imageops::{self, FilterType};
 use std::fs;
@@ -20,12 +19,13 @@ const PLACE: &str = "docs/pictures";
 /// Errors that the pages' tables tell of: five rows of panels would be too many.
 const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
-/// Folder, which is a case's or the bench's, and file, both of the report and of the pages; charts are SVG. The third cell
-/// is [`ROWS`], [`BENCH`], a script or the least tier of the runs.
+/// Folder, which is a case's or the board's, and file, both of the report and of the pages; charts are SVG. The third cell
+/// is [`ROWS`], [`CODES`], a script or the least tier of the runs.
 const SHOWN: &str = include_str!("../../assets/pictures.csv");
 /// Kept rows of nights: a row per run.
 const ROWS: &str = "rows";
-const BENCH: &str = "bench";
+/// Kept results of other codes.
+const CODES: &str = "codes";
 
 fn shown() -> impl Iterator<Item = [&'static str; 3]> {
     SHOWN.lines().skip(1).filter_map(|line| line.split(',').collect::<Vec<_>>().try_into().ok())
@@ -36,18 +36,18 @@ pub fn files() -> impl Iterator<Item = PathBuf> {
     shown().map(|[folder, file, _]| Path::new(PLACE).join(folder).join(file))
 }
 
-/// Draws the pictures of the repository at `root` anew: from its rows and its bench, and those that the finished runs in
-/// `folders`, shards of one plan, suffice for. The others are left as they are. Returns a line on each.
+/// Draws the pictures of the repository at `root` anew: from its rows and results of other codes, and those that the
+/// finished runs in `folders`, shards of one plan, suffice for. The others are left as they are. Returns a line on each.
 ///
 /// # Errors
-/// Rows, bench or runs are missing or damaged, or a picture can't be drawn, can't be written or is too large.
+/// Rows, results or runs are missing or damaged, or a picture can't be drawn, can't be written or is too large.
 pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
     let drawn = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let drawn = drawn.path();
     draw_rows(&root.join("reports/nightly/results.csv"), drawn)?;
-    let measured = root.join("reports/bench");
-    if measured.exists() {
-        bench::draw(&measured, &drawn.join("bench"))?;
+    let codes = root.join("mpm-verify/codes");
+    if codes.exists() {
+        board::write(&board::gather(&[codes])?, &drawn.join("board"))?;
     }
     let tier = match folders {
         [] => None,
@@ -59,7 +59,7 @@ pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
         let (suffices, wanted) = match source {
             ROWS => (true, "rows of runs".to_owned()),
             script if script.ends_with(".py") => (false, format!("a run of {script}")),
-            BENCH => (true, "a bench over numbers of particles".to_owned()),
+            CODES => (true, "results of other codes".to_owned()),
             least => (tier >= Some(Tier::parse(least)?), format!("runs of tier {least}: --from")),
         };
         let line = if !(suffices && from.join(file).exists()) {
@@ -167,7 +167,7 @@ cook,gimp-none-flip,h1,,1,ok,3,1,0,0,1448,7026,183125664,0.9,2026-01-01,now,fem_
         assert_eq!(drawn, ["cook/convergence.svg: drawn"], "{told}");
         assert_eq!(left.len(), super::shown().count() - 1);
         assert!(told.contains("column/creep.svg: left, for want of runs of tier pr"));
-        assert!(told.contains("bench/scaling.svg: left, for want of a bench"));
+        assert!(told.contains("board/board.svg: left, for want of results of other codes"));
         let svg = fs::read_to_string(shown("cook/convergence.svg")).unwrap();
         assert!(svg.starts_with("<svg"));
         assert_eq!(fs::read(shown("column/creep.svg")).unwrap(), b"former");

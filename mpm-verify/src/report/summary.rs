@@ -34,7 +34,7 @@ pub(super) fn of_rows(studies: Vec<CaseStudy>, nights: &Sheet) -> Result<String,
     let mut document = Document::new("Verification, all kept runs");
     // A row counts only checks that judge.
     document.paragraph(lines(&summary.counts.to_string(), 2));
-    document.paragraph(Text::marked("The map of schemes and cases: `docs/hard-cases.md`."));
+    document.paragraph(Text::marked("The map of schemes and cases: `docs/notes/tables.md`."));
     body(&mut document, &summary, &Speed::of(&summary.cases), nights)?;
     Ok(document.markdown())
 }

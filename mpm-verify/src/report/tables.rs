@@ -1,8 +1,7 @@
 //! The tables of results in README and docs, the numbers in their sentences, and the summary of all nights, filled from the
 //! rows that are kept.
 //!
-//! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own; that of speed against error
-//! may begin with its name alone.
+//! A table stands between `<!-- table NAME -->` and `<!-- end -->`, each on a line of its own.
 
 use super::document::Text;
 use super::prelude::*;
@@ -10,7 +9,7 @@ use super::rows::RESULTS;
 use super::speed::Speed;
 use super::values::Values;
 use super::{board, criteria, map, rivals, rows, speed, summary};
-use std::fs;
+use crate::files::entries;
 
 const BEGIN: &str = "<!-- table ";
 const CLOSE: &str = " -->";
@@ -32,11 +31,10 @@ pub struct Page {
 }
 
 impl Page {
-    /// The pages of the repository in `root`: its README, what lies in docs, and the summary of all nights.
+    /// The pages of the repository in `root`: its README, those of docs and docs/notes, and the summary of all nights.
     ///
     /// # Errors
-    /// Rows or pages are missing or damaged; a page has a block or a number that nothing fills or that does not end; no
-    /// page has a table.
+    /// Rows or pages are missing or damaged; a page has a block or a number that nothing fills or that does not end.
     pub fn all(root: &Path) -> Result<Vec<Self>, Error> {
         let results = root.join(RESULTS);
         if !results.exists() {
@@ -50,21 +48,13 @@ impl Page {
             let board = board::tables(&board::among(&[codes], &kept)?);
             tables.extend(board.into_iter().map(|(name, sheet)| (name, sheet.markdown())));
         }
-        let mut files = vec![root.join("README.md")];
-        let docs = root.join("docs");
-        for entry in fs::read_dir(&docs).map_err(|e| Error::file(&docs, e))? {
-            files.push(entry.map_err(|e| Error::file(&docs, e))?.path());
-        }
+        let mut files = [entries(&root.join("docs"))?, entries(&root.join("docs/notes"))?].concat();
         files.retain(|file| file.extension().is_some_and(|e| e == "md"));
-        files.sort();
-        let mut shown = BTreeSet::new();
-        let pages = files.into_iter().map(|file| Self::read(file, &tables, &values, &mut shown));
+        files.insert(0, root.join("README.md"));
+        let pages = files.into_iter().map(|file| Self::read(file, &tables, &values));
         let mut pages = pages.collect::<Result<Vec<Self>, Error>>()?;
         pages.push(Self::gist(root.join(GIST), &rows)?);
-        match tables.keys().find(|name| !shown.contains(*name)) {
-            Some(name) => Err(Error::Input(format!("no page shows the table {name}"))),
-            None => Ok(pages),
-        }
+        Ok(pages)
     }
 
     /// The summary of all nights.
@@ -85,13 +75,7 @@ impl Page {
         Ok(Self { file, stale, text })
     }
 
-    /// A page, with the names of the tables that it shows added to `shown`.
-    fn read(
-        file: PathBuf,
-        tables: &BTreeMap<String, String>,
-        values: &Values,
-        shown: &mut BTreeSet<String>,
-    ) -> Result<Self, Error> {
+    fn read(file: PathBuf, tables: &BTreeMap<String, String>, values: &Values) -> Result<Self, Error> {
         let old = read_text(&file)?;
         let (mut text, mut stale) = (String::new(), Vec::new());
         let mut lines = old.split_inclusive('\n').enumerate();
@@ -101,9 +85,7 @@ impl Page {
             text.push_str(&line);
             stale.extend(changed);
             let Some(comment) = line.trim_end().strip_prefix("<!-- ") else { continue };
-            let named = line.trim_end().strip_prefix(BEGIN);
-            let bare = Some(comment).filter(|rest| rest.starts_with(speed::NAME));
-            let Some(name) = named.or(bare) else {
+            let Some(name) = line.trim_end().strip_prefix(BEGIN) else {
                 return Err(refuse(format!("nothing fills the block <!-- {comment}")));
             };
             let name = name.trim_end_matches(CLOSE);
@@ -124,7 +106,6 @@ impl Page {
             text.push_str(table);
             text.push_str(END);
             text.push('\n');
-            shown.insert(name.to_owned());
         }
         Ok(Self { file, stale, text })
     }
@@ -198,7 +179,7 @@ fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
     let panels = map::panels(records(), &speed);
     let map = map::PANELS.map(|name| {
         let text = panels.iter().find(|panel| panel.name == name).map(|panel| {
-            let page = |case: &str| Text::link(case, format!("{case}.md"));
+            let page = |case: &str| Text::link(case, format!("../{case}.md"));
             let marks = panel.marks().markdown();
             let below = if marks.is_empty() { marks } else { format!("\n{marks}\n") };
             panel.table(page, false).markdown() + &below
@@ -220,6 +201,7 @@ fn tables(rows: &[rows::Row]) -> Result<BTreeMap<String, String>, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     const ROWS: &str = "case,scheme,level,set,h,status,right,wrong_as_known,not_judged,failed,particles,steps,particle_node_pairs,cpu_s,night,program,metrics
 slope-stability,gimp-none-flip,h0.2,,0.2,ok,0,0,0,0,1,1,1,1.5,2026-01-02,abc,stands_at=2.5;fails_at=2.75;strength_reduction_factor=2.6
@@ -234,10 +216,6 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
         };
         write(RESULTS, ROWS);
         write("README.md", shown);
-        let all = tables(&[]).unwrap();
-        let others = all.keys().filter(|name| !shown.contains(&format!("table {name} ")));
-        let others = others.map(|name| format!("{BEGIN}{name}{CLOSE}\n{END}\n"));
-        write("docs/others.md", &others.collect::<String>());
         root
     }
 
@@ -286,33 +264,25 @@ slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-
     }
 
     #[test]
-    fn a_missing_file_and_a_table_without_a_page_are_errors() {
-        let missing = |file: &str| {
+    fn a_missing_file_is_an_error() {
+        for file in [RESULTS, "README.md"] {
             let root = repository("");
             fs::remove_file(root.path().join(file)).unwrap();
-            Page::all(root.path()).unwrap_err().to_string()
-        };
-        for file in [RESULTS, "README.md"] {
-            assert!(missing(file).contains(file), "{file}");
+            let missing = Page::all(root.path()).unwrap_err().to_string();
+            assert!(missing.contains(file), "{file}");
         }
-        assert!(missing("docs/others.md").contains("no page shows the table"));
     }
 
     #[test]
-    fn every_column_of_every_page_says_something() {
-        let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs");
+    fn every_column_of_every_table_says_something() {
+        let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(RESULTS);
         let mut empty = Vec::new();
-        for page in std::fs::read_dir(docs).unwrap().map(|entry| entry.unwrap().path()) {
-            let text = if page.is_file() { std::fs::read_to_string(&page).unwrap() } else { String::new() };
-            for table in text.split(BEGIN).skip(1) {
-                let (name, rest) = table.split_once(" -->").unwrap();
-                let rows = rest.lines().take_while(|l| !l.starts_with(END)).filter(|l| l.starts_with('|'));
-                let rows: Vec<Vec<&str>> = rows.map(|l| l.split(" | ").collect()).collect();
-                let says =
-                    |k: usize| rows.iter().skip(2).any(|row| !["", "–"].contains(&row[k].trim_matches(['|', ' '])));
-                let columns = rows.first().map_or(0, Vec::len);
-                empty.extend((0..columns).filter(|k| !says(*k)).map(|k| format!("{name}: {}", rows[0][k])));
-            }
+        for (name, table) in tables(&rows::read(&kept).unwrap()).unwrap() {
+            let rows = table.lines().filter(|l| l.starts_with('|'));
+            let rows: Vec<Vec<&str>> = rows.map(|l| l.split(" | ").collect()).collect();
+            let says = |k: usize| rows.iter().skip(2).any(|row| !["", "–"].contains(&row[k].trim_matches(['|', ' '])));
+            let columns = rows.first().map_or(0, Vec::len);
+            empty.extend((0..columns).filter(|k| !says(*k)).map(|k| format!("{name}: {}", rows[0][k])));
         }
         assert_eq!(empty, Vec::<String>::new());
     }

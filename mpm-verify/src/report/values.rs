@@ -132,4 +132,98 @@ mod tests {
         let endless = values().fill("<!--= cook 2-->1").unwrap_err().to_string();
         assert!(endless.contains("does not end"), "{endless}");
     }
+
+    /// Pages of formulas and rules, whose numbers follow from the text beside them.
+    const DERIVED: &str = "remedy method implicit bodies drucker-prager cam-clay exact poromechanics contact manufactured \
+                           reliability verification continuous metamorphic mutants README";
+
+    /// A page as it is read, without what fills its numbers: citations, tables, code, pictures, links, lines with a source.
+    fn prose(page: &str) -> String {
+        fn without(mut text: String, open: &str, close: &str) -> String {
+            while let Some((before, (_, after))) =
+                text.split_once(open).and_then(|(b, a)| Some((b, a.split_once(close)?)))
+            {
+                text = format!("{before}{after}");
+            }
+            text
+        }
+        let lines: Vec<&str> = page.lines().filter(|line| !line.contains("<!--from ")).collect();
+        let mut text = lines.join("\n");
+        for (open, close) in [(BEGIN, END), ("<!-- table", "<!-- end -->"), ("```", "```"), ("`", "`"), ("](", ")")] {
+            text = without(text, open, close);
+        }
+        text
+    }
+
+    /// Numbers of two digits and more, and the text before and after each.
+    fn numbers(line: &str) -> Vec<(&str, &str, &str)> {
+        let (mut found, mut from) = (Vec::new(), 0);
+        while let Some(begin) = line[from..].find(|c: char| c.is_ascii_digit()).map(|k| from + k) {
+            let is_part = |c: char| c.is_ascii_digit() || ".,".contains(c);
+            let end = line[begin..].find(|c| !is_part(c)).map_or(line.len(), |k| begin + k);
+            let number = line[begin..end].trim_end_matches(['.', ',']);
+            let (before, after) = (&line[..begin], &line[begin + number.len()..]);
+            if number.len() > 1 && !before.ends_with(|c: char| c.is_alphanumeric() || c == '-') {
+                found.push((before, number, after));
+            }
+            from = end;
+        }
+        found
+    }
+
+    /// Whether a number stands for a label, a bound or a value that is set, and is no result.
+    fn is_given(before: &str, number: &str, after: &str) -> bool {
+        let is_label = !number.contains('.') && (before.ends_with('(') && after.starts_with(')') || before == "| ");
+        let named = ["Figure", "Figures", "Section", "section", "Eq.", "Mach", "CFL", "Rust", "Apache", "Night of"];
+        let before = before.trim_end();
+        is_label || before.ends_with(['=', '≤', '≥', '<', '>', '/']) || named.iter().any(|name| before.ends_with(name))
+    }
+
+    /// A number of a page is filled from a row, stands in what `explain` prints, or on a line that names its source:
+    /// `<!--from scripts/soils.py-->`, `<!--from the paper-->`.
+    #[test]
+    fn every_result_on_a_page_has_a_source() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let explained = |case: &Case| crate::report::describe::explain(case);
+        let digits = |text: &str| -> BTreeSet<String> {
+            let parts = text.split(|c: char| !c.is_ascii_digit() && c != '.');
+            parts.map(|n| n.trim_matches('.').to_owned()).collect()
+        };
+        let all = digits(&cases::all().iter().map(explained).collect::<String>());
+        let mut typed = Vec::new();
+        for file in crate::files::entries(&root.join("docs")).unwrap().into_iter().chain([root.join("README.md")]) {
+            let name = file.file_stem().unwrap().to_str().unwrap();
+            let in_docs = file.parent() != Some(&root);
+            if file.extension().is_none_or(|e| e != "md") || in_docs && DERIVED.split(' ').any(|d| d.trim() == name) {
+                continue;
+            }
+            let text = read_text(&file).unwrap();
+            for script in text.split("<!--from scripts/").skip(1).filter_map(|rest| rest.split("-->").next()) {
+                assert!(root.join("scripts").join(script).exists(), "{name}: {script}");
+            }
+            let known = cases::find(name).map_or_else(|_| all.clone(), |case| digits(&explained(case)));
+            let mut is_set = false;
+            for line in prose(&text).lines() {
+                is_set = if line.starts_with('#') { ["## Set-up", "## Tolerances"].contains(&line) } else { is_set };
+                let results = numbers(line).into_iter().filter(|(before, n, after)| {
+                    !is_set && !line.starts_with('#') && !known.contains(*n) && !is_given(before, n, after)
+                });
+                typed.extend(results.map(|(_, n, _)| format!("{name}: {n} in \"{line}\"")));
+            }
+        }
+        assert!(typed.is_empty(), "{} numbers without a source:\n{}", typed.len(), typed.join("\n"));
+    }
+
+    #[test]
+    fn a_typed_result_is_seen_and_a_given_number_is_not() {
+        let seen = |line: &str| numbers(&prose(line)).iter().filter(|(b, n, a)| !is_given(b, n, a)).count();
+        for line in ["errs by 5.8 %.", "N_c is 12 and 5.143 B."] {
+            assert!(seen(line) > 0, "{line}");
+        }
+        for line in
+            ["ν = 0.499, Eq. (18), B/20", "<!--= a b 2-->5.14<!--/--> `n64` [a](b.md#c12)", "0.9<!--from the paper-->"]
+        {
+            assert_eq!(seen(line), 0, "{line}");
+        }
+    }
 }

@@ -44,19 +44,20 @@ fn load(_: &Record, series: &Table) -> Vec<(f64, f64)> {
     points
 }
 
-/// Above: standard and consistent at all levels, whole and about the limit load. Below: all remedies at one.
+/// Above: standard and consistent at the finest levels, whole and about the limit load. Below: all remedies at one.
 fn curves(runs: &mut Exhibit) -> Result<(), Error> {
-    let remedies = [(RemedyName::None, Dash::Dotted), (FbarConsistent, Dash::Solid)];
+    let remedies = [RemedyName::None, FbarConsistent];
     // A curve that no basis has needs no entry in the legend.
     let has = |remedy, level: &str| SMOOTH.iter().any(|&basis| runs.find(basis, remedy, level).is_some());
     let (mut whole, mut by_remedy) = (Vec::new(), Vec::new());
     for basis in SMOOTH {
         let title = basis_title(basis);
         let mut panel = panel_of_loads(title.to_owned());
-        for (colour, level) in LEVELS.into_iter().enumerate() {
-            for (remedy, dash) in remedies.into_iter().filter(|(r, _)| has(*r, level)) {
-                let name = format!("{remedy} B/{}", &level[1..]);
-                let line = |points| Series { dash, ..Series::line(name.clone(), points, colour) };
+        let levels = LEVELS.into_iter().filter(|level| remedies.iter().any(|r| has(*r, level)));
+        for (level, dash) in levels.zip(LEVEL_DASHES) {
+            for remedy in remedies.into_iter().filter(|r| has(*r, level)) {
+                let name = format!("{} B/{}", remedy_title(remedy), &level[1..]);
+                let line = |points| Series { name: name.clone(), dash, ..history(Scheme::flip(basis, remedy), points) };
                 panel = match runs.find(basis, remedy, level) {
                     Some(record) => panel.histories(runs.gallery, [record], load)?.styled(|_, s| line(s.points)),
                     None => panel.curve(line(Vec::new())),
@@ -75,7 +76,7 @@ fn curves(runs: &mut Exhibit) -> Result<(), Error> {
     let about: Vec<Panel> = whole.iter().map(|p| p.zoomed(ABOUT.0, ABOUT.1)).collect();
     Figure::new(
         "load-settlement",
-        "Pressure over undrained strength against penetration over the footing's width: above, standard MPM (dotted) and fbar-consistent (full) at all levels, whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and, on ground of the full size, the finite elements of vanishing size. The paper's Figure 8.",
+        "Pressure over undrained strength against penetration over the footing's width: above, standard MPM and fbar-consistent at the finest levels (full: the finest), whole and about the limit load; below, all remedies at one level; with Prandtl's limit load and, on ground of the full size, the finite elements of vanishing size. The paper's Figure 8.",
         whole.into_iter().chain(about).chain(by_remedy),
     )
     .columns(2)

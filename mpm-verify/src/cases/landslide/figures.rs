@@ -13,8 +13,6 @@ const TIMES: [f64; 3] = [1.0, 2.5, 5.5];
 /// Times (s) between frames of the animation, and between showing them (hundredths of a second).
 const FRAME: f64 = 0.2;
 const DELAY: u16 = 20;
-/// Colours of levels: those that no remedy shown here has.
-const LEVEL_COLOURS: [usize; 5] = [5, 0, 2, 4, 7];
 /// Coordinate of the first toe (m).
 const TOE: f64 = 15.0;
 /// Window of the section (m).
@@ -164,7 +162,7 @@ fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
         ("kinetic_energy", (1e-3, 0.0), "kinetic energy (kJ/m)"),
     ];
     let levels = crate::distinct(runs.records.iter().map(|r| &*r.level));
-    let colour = |r: &Record| levels.iter().position(|level| *level == r.level);
+    let place = |r: &Record| levels.iter().position(|level| *level == r.level);
     let mut panels = Vec::new();
     for basis in SMOOTH {
         let Some(level) = runs.levels(basis).first().copied() else { continue };
@@ -182,19 +180,19 @@ fn run_out(runs: &mut Exhibit) -> Result<(), Error> {
             panels.push(panel.by_run(|r, s| Series { name: remedy_title(r.remedy()), ..s }));
         }
         for quantity in quantities {
-            let own = levels.iter().take(LEVEL_COLOURS.len());
+            let own = levels.iter().take(LEVEL_DASHES.len());
             let own = own.filter_map(|level| runs.find(basis, FbarConsistent, level));
             let panel = panel("fbar-consistent", own.collect(), quantity)?;
             panels.push(panel.by_run(|r, s| Series {
                 name: level_title(&r.level),
-                colour: colour(r).map_or(s.colour, |place| LEVEL_COLOURS[place]),
+                dash: place(r).map_or(s.dash, |place| LEVEL_DASHES[place]),
                 ..s
             }));
         }
     }
     Figure::new(
         "run-out",
-        "Run-out, settlement of the crest and kinetic energy against time since the reduction: all remedies at the finest common level, then fbar-consistent at all levels. The paper's Figure 16.",
+        "Run-out, settlement of the crest and kinetic energy against time since the reduction: all remedies at the finest common level, then fbar-consistent at the finest levels (full: the finest). The paper's Figure 16.",
         panels,
     )
     .columns(quantities.len())

@@ -27,11 +27,6 @@ pub(in crate::cases) fn is_smooth(r: &Record) -> bool {
     judged && matches!(r.basis(), Gimp | Bspline2)
 }
 
-/// Orders of the runs of a case with its own parameters and FLIP.
-pub(in crate::cases) fn own_orders(case: &str) -> ResultTable {
-    orders(&format!("{case}-orders"), |r| r.is_default() && is_flip(r))
-}
-
 /// Errors at the finest level and orders over all levels, of runs that a row has one of at each level.
 pub(in crate::cases) fn orders(name: &str, shows: fn(&Record) -> bool) -> ResultTable {
     let finest = |title, metric, format: Format| {

@@ -3,11 +3,12 @@
 use super::{docs, file_of, in_repository, pictures, run};
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text, prose};
 use crate::report::fate::Fate;
+use crate::report::map;
 use crate::report::prelude::*;
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
 use crate::report::verdicts::{self, tightest};
-use crate::report::{map, words::OUTCOMES};
+use crate::report::words::{OUTCOMES, made_by};
 
 /// The sections and the other files of a report.
 pub(super) fn links() -> Vec<Text> {
@@ -35,6 +36,7 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     let readme = in_repository("which scheme to take", "README.md#which-scheme-to-take", "HEAD");
     let about = Text::from(about).then("The README says ").then(readme).then(". ");
     page.paragraph(about.then(result).then_below(counts.lines().next().unwrap_or_default()));
+    page.note(origin(summary));
     of_map(&mut page, summary, speed);
     price(&mut page, summary, speed, picture.map(|p| Shown::of(&p, out)));
     page.section("cases", "Cases");
@@ -46,13 +48,21 @@ pub(super) fn page(summary: &Summary, speed: &Speed, picture: Option<Picture>, o
     legend(&mut page);
     failed(&mut page, summary);
     page.section("programs", "Programs");
+    page.table("Programs", programs(summary));
+    Ok(page)
+}
+
+/// Program, night, commit and machines of the runs.
+fn origin(summary: &Summary) -> Text {
     let machines = summary.records().map(|r| {
         let m = &r.machine;
         format!("{} {}, {} cores, threads per run: {}", m.os, m.arch, m.cores, m.threads)
     });
-    page.facts(distinct(machines).into_iter().map(|machine| ("machine", machine)));
-    page.table("Programs", programs(summary));
-    Ok(page)
+    let machines = distinct(machines).join("; ");
+    match &distinct(summary.cases.iter().map(made_by))[..] {
+        [[program, night, commit]] => format!("{program}; night {night}, commit {commit}; {machines}.").into(),
+        _ => Text::link("Several programs", "#programs").then(format!("; {machines}.")),
+    }
 }
 
 fn of_map(page: &mut Document, summary: &Summary, speed: &Speed) {
