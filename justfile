@@ -28,7 +28,7 @@ bench:
 paths:
     .ci/paths
 
-# Workloads, problems and laws in turns with peers; the report is committed.
+# Workloads, problems and laws in turns with peers; its tables are committed.
 speed python="python3":
     cargo run --release -- bench --peers taichi --python {{python}} --out reports/bench
 

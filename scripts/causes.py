@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two tables of docs: what Cook's error is made of (docs/cook.md), and the width that a footing acts with (docs/averages.md).
+"""Two tables of docs: what Cook's error is made of (docs/notes/cook.md), and the width that a footing acts with (docs/notes/averages.md).
 
 usage: causes.py PROGRAM
 

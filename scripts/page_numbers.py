@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Numbers of docs/column.md and docs/mms-vortex-box.md that no table is filled with, from the particles of a run.
+"""Numbers of docs/notes/column.md and docs/notes/mms-vortex-box.md that no table is filled with, from the particles of a run.
 
     mpm-verify run column --scheme gimp-fbar-recursive-flip --out run && scripts/page_numbers.py column run
     mpm-verify run mms-vortex-box --scheme gimp-fbar-consistent-flip --level n64 --out run \

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The table of docs/averages.md on the relaxation β of fbar-consistent: the error of u in mms-axis. Ten seconds; needs jq.
+# The table of docs/notes/averages.md on the relaxation β of fbar-consistent: the error of u in mms-axis. Ten seconds; needs jq.
 #     MPM_VERIFY=target/release/mpm-verify scripts/relaxation.sh
 set -euo pipefail
 

@@ -68,8 +68,8 @@ def collect_program(folder, program):
         text = output([program, "explain", case["case"], "--json"])
         (folder / f"explain-{case['case']}.json").write_text(text)
         metrics[case["case"]] = {metric["name"]: metric["unit"] for metric in json.loads(text)["metrics"]}
-    commands = re.findall(r"^  (\w[\w-]*) ", output([program, "--help"]).split("Commands:")[1], re.M)
-    for command in sorted(set(commands) - {"help"}):
+    commands = re.findall(r"^  ([a-z]\w*) +[A-Z]", output([program, "--help"]).split("Options:")[0], re.M)
+    for command in sorted(commands):
         text = output([program, command, "--help"]).replace(pathlib.Path(program).name, "mpm-verify")
         (folder / f"help-{command}.txt").write_text(text)
     return metrics
@@ -79,10 +79,10 @@ def collect_tables(folder, program, root, rows):
     """The tables of the pages as the program fills them, the numbers that sentences cite, and the summary."""
     with tempfile.TemporaryDirectory() as scratch:
         folder, scratch = fresh(folder), pathlib.Path(scratch)
-        (scratch / "docs").mkdir()
+        (scratch / "docs/notes").mkdir(parents=True)
         (scratch / "reports/nightly").mkdir(parents=True)
         shutil.copy(rows, scratch / "reports/nightly/results.csv")
-        for page in [root / "README.md", *(root / "docs").glob("*.md")]:
+        for page in [root / "README.md", *(root / "docs").glob("*.md"), *(root / "docs/notes").glob("*.md")]:
             shutil.copy(page, scratch / page.relative_to(root))
         output([program, "tables", "--root", scratch])
         for page in sorted(scratch.glob("**/*.md")):
@@ -90,7 +90,7 @@ def collect_tables(folder, program, root, rows):
             for name, table in BLOCK.findall(text):
                 (folder / f"{name}.txt").write_text(table)
             cited = [f"{what}: {number}" for what, number in CITED.findall(text)]
-            (folder / f"numbers-{page.stem}.txt").write_text("\n".join(cited))
+            (folder / f"numbers-{page.parent.name}-{page.stem}.txt").write_text("\n".join(cited))
         shutil.copy(scratch / "reports/nightly/summary.md", folder / "summary.txt")
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The size of the box of a strip load, and factors of slopes: what docs/soils.md has beside its case.
+"""The size of the box of a strip load, and factors of slopes: what docs/notes/soils.md has beside its case.
 
 usage: soils.py PROGRAM
 """

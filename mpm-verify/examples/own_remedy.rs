@@ -29,26 +29,30 @@ impl<const D: usize> Remedy<D> for Own {
     }
 }
 
-fn judged(scheme: &str) -> Result<Record, Error> {
-    let case = cases::find("cook")?;
-    let (scheme, level) = (Scheme::parse(scheme)?, find_level(case, "h2")?);
+fn judged(case: &str, scheme: &str, level: &str) -> Result<Record, Error> {
+    let case = cases::find(case)?;
+    let (scheme, level) = (Scheme::parse(scheme)?, find_level(case, level)?);
     let spec = RunSpec { scheme, level, set: Vec::new(), perturbed: false };
     judged_run(case, &spec, None, 1, &|_| ())
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     set_own_remedy::<2>(|| Box::new(Own))?;
-    let [own, rate] = [judged("gimp-own-flip")?, judged("gimp-fbar-rate-flip")?];
+    let [own, rate] = [judged("cook", "gimp-own-flip", "h2")?, judged("cook", "gimp-fbar-rate-flip", "h2")?];
     for verdict in &own.verdicts {
         writeln!(stdout(), "{:?}  {}", verdict.outcome, verdict.check)?;
     }
-    for (name, value) in &own.metrics {
-        assert_eq!(value.value, rate.metrics[name].value, "{name}");
-    }
+    assert!(!own.metrics.is_empty(), "the run broke down");
+    assert_eq!(own.metrics, rate.metrics);
     Ok(())
 }
 
 #[test]
-fn it_is_judged_as_the_same_remedy_of_the_bench() {
+fn it_agrees_with_the_same_remedy_of_the_bench_and_is_refused_where_it_is_not_set() {
+    assert!(judged("cook", "gimp-own-flip", "h2").is_err());
     main().unwrap();
+    for (case, scheme, level) in [("mms-swirl", "gimp-own-flip", "n8"), ("cook", "quasi-static-gimp-own", "h2")] {
+        assert!(judged(case, scheme, level).is_err(), "{case} {scheme}");
+    }
+    assert!(set_own_remedy::<2>(|| Box::new(Own)).is_err());
 }

@@ -1,4 +1,4 @@
-//! Order of the particles of a liquid: the table of docs/averages.md, made by a model of its own.
+//! Order of the particles of a liquid: the table of docs/notes/averages.md, made by a model of its own.
 //!
 //!     rustc --edition 2024 -O -C target-cpu=native -o disorder scripts/disorder/main.rs && ./disorder
 //!

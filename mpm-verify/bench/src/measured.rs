@@ -1,10 +1,10 @@
 //! Measurements: slices of work, their spread over the rounds, and ratios.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// A slice of work.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Sample {
     /// Particle updates; of Newton's method, iterations; of laws, particles; of memory, bytes.
     pub updates: u64,
@@ -15,7 +15,7 @@ pub struct Sample {
 }
 
 /// Measurement of one thing on one number of threads.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Measured {
     /// Its group: `workload`, `problem`, `newton`, `law`, `scaling`, `memory`, `peer`.
     pub group: String,
@@ -36,7 +36,7 @@ pub struct Measured {
 }
 
 /// Median and range.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spread {
     /// Least.
     pub least: f64,
@@ -80,7 +80,7 @@ pub(crate) fn ratio(slow: &Measured, fast: &Measured, time: fn(&Sample) -> f64) 
 }
 
 /// All measurements of a bench.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[serde(transparent)]
 pub struct Measurements(pub Vec<Measured>);
 

@@ -139,9 +139,10 @@ impl Setting {
         let seen = volume.conjugate() * volume.transpose();
         let filtered = if kept > ROUNDING { seen.clone() / Complex::from(kept) } else { seen.clone() * zero };
         let volumes = match self.scheme.remedy {
-            // The remedy of another program has no analysis here.
-            RemedyName::None | RemedyName::Own => traces.clone(),
-            RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate | RemedyName::Other(..) => seen,
+            RemedyName::None => traces.clone(),
+            RemedyName::FbarRecursive | RemedyName::FbarTotal | RemedyName::FbarRate => seen,
+            // Not predicted.
+            RemedyName::Other(..) | RemedyName::Own => seen,
             RemedyName::FbarConsistent => {
                 let sharp = 1.0 - (1.0 - UNSEEN) * (1.0 - kept).powi(2);
                 let unseen = (&traces - &filtered) * Complex::from(UNSEEN * UNSEEN);
@@ -175,13 +176,14 @@ impl Setting {
 
     /// The largest CFL number (zero if every one is unstable) and the fastest growth per step and CFL number of a wave
     /// fed by a mean stress. `None` where the analysis is not made: `fbar-recursive` in more than one dimension,
-    /// `fbar-recursive` and `fbar-consistent` under a mean stress, a remedy with a viscosity, other members of the family.
+    /// `fbar-recursive` and `fbar-consistent` under a mean stress, a remedy with a viscosity, other members of the family,
+    /// a remedy of another program.
     pub fn predicted(&self) -> Option<[f64; 2]> {
         let dimension = self.places.len();
         match self.scheme.remedy {
             RemedyName::FbarRecursive if dimension > 1 || self.mean_stress != 0.0 => return None,
             RemedyName::FbarConsistent if self.mean_stress != 0.0 => return None,
-            RemedyName::Other(..) => return None,
+            RemedyName::Other(..) | RemedyName::Own => return None,
             remedy if remedy != RemedyName::None && self.viscosity > 0.0 => return None,
             _ => {}
         }

@@ -51,8 +51,8 @@ macro_rules! in_its_dimension {
 /// which it would not see, or outside the plane; the remedy `own` is not set for these dimensions.
 pub fn solver<const D: usize>(scheme: Scheme, scene: Scene<D>, settings: Settings<D>) -> Built<D> {
     if scheme.remedy() == RemedyName::Own && RemedyName::Own.own::<D>().is_none() {
-        let what = "dimensions of a run with the remedy own, which";
-        return Err(Error::Input { what, value: D as f64, allowed: "those that set_own_remedy was called for" });
+        let what = "dimension of a run with the remedy own";
+        return Err(Error::Input { what, value: D as f64, allowed: "the one that set_own_remedy was called for" });
     }
     trial::built(scene, |scene, _| in_its_dimension!(scene, D, |own| own.explicit(scheme, cast(settings)?)))
 }

@@ -8,7 +8,7 @@ use std::fmt;
 use std::sync::OnceLock;
 use thiserror::Error;
 
-/// A name that stands for nothing.
+/// An error in a name.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NameError {
     /// One of several kinds of names; the error lists those that are known.
@@ -106,7 +106,7 @@ impl BasisName {
 }
 
 impl RemedyName {
-    /// The remedy.
+    /// The remedy; that of standard MPM for an `own` that is not set, which the solvers of this package refuse.
     #[must_use]
     pub fn build<const D: usize>(self) -> Box<dyn Remedy<D>> {
         match (self.fbar(), self.own()) {
@@ -140,7 +140,7 @@ impl RemedyName {
 
 /// A name that is written and read as serde does.
 macro_rules! plain_text {
-    ($type:ty, $kind:literal, [$($variant:expr => $text:literal),+]) => {
+    ($type:ty, $kind:literal, [$($variant:expr => $text:literal),+] $(, unlisted $other:expr => $name:literal)?) => {
         impl $type {
             /// The names.
             pub const NAMES: &[&str] = &[$($text),+];
@@ -149,6 +149,7 @@ macro_rules! plain_text {
             #[must_use]
             pub fn text(self) -> &'static str {
                 $(if self == $variant { return $text; })+
+                $(if self == $other { return $name; })?
                 ""
             }
 
@@ -158,6 +159,7 @@ macro_rules! plain_text {
             /// An unknown name; the error lists the known ones.
             pub fn parse(name: &str) -> Result<Self, NameError> {
                 $(if name == $text { return Ok($variant); })+
+                $(if name == $name { return Ok($other); })?
                 Err(NameError::Unknown {
                     kind: $kind,
                     given: name.to_owned(),
@@ -178,7 +180,7 @@ plain_text!(BasisName, "basis", [
     Self::Linear => "linear", Self::Gimp => "gimp",
     Self::Bspline2 => "bspline2", Self::Bspline3 => "bspline3", Self::Q8 => "q8"]);
 plain_text!(RemedyName, "remedy", [
-    Self::None => "none", Self::Own => "own", Self::FbarRecursive => "fbar-recursive",
+    Self::None => "none", Self::FbarRecursive => "fbar-recursive",
     Self::FbarTotal => "fbar-total", Self::FbarRate => "fbar-rate",
     Self::FbarConsistent => "fbar-consistent",
     Self::Other(Form::Bbar, Onto::Basis) => "bbar",
@@ -201,7 +203,8 @@ plain_text!(RemedyName, "remedy", [
     Self::Other(Form::Consistent, Onto::Hats) => "fbar-consistent-hats",
     Self::Other(Form::Consistent, Onto::Cells) => "fbar-consistent-cells",
     Self::Other(Form::Consistent, Onto::Blocks) => "fbar-consistent-blocks",
-    Self::Other(Form::Consistent, Onto::Patches) => "fbar-consistent-patches"]);
+    Self::Other(Form::Consistent, Onto::Patches) => "fbar-consistent-patches"],
+    unlisted Self::Own => "own");
 plain_text!(TransferName, "transfer", [
     Self::Flip => "flip", Self::Apic => "apic", Self::Xpic2 => "xpic2",
     Self::Musl => "musl", Self::None => "none"]);

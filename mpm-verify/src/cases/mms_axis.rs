@@ -79,7 +79,6 @@ fn plan() -> Plan {
 
 fn tables() -> Vec<ResultTable> {
     const TWO: &str = "amplitude=0.02";
-    const FOUR: &str = "amplitude=0.02 ppc_per_direction=4";
     vec![
         tables::orders("mms-axis-rules", tables::is_of_rule),
         tables::cost("mms-axis-cost", ["n16", "n32", "n64"], |r| {
@@ -89,7 +88,6 @@ fn tables() -> Vec<ResultTable> {
         tables::orders("mms-axis-transfers", |r| r.is_default() && !is_flip(r)),
         tables::price("mms-axis-price", ["n8", "n16", "n32", "n64", "n128"], ""),
         tables::errors("mms-axis-crossing", ["n8", "n16", "n32", "n64"].map(|n| (n, n, TWO))),
-        tables::errors("mms-axis-crossing-of-four", ["n8", "n16", "n32", "n64"].map(|n| (n, n, FOUR))),
         tables::errors(
             "mms-axis-particles",
             [

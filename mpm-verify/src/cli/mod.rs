@@ -224,16 +224,16 @@ impl TypedValueParser for Schemes {
     }
 }
 
-/// An error of the command line's syntax, on one line: without the list of allowed values if a similar one is named.
+/// An error of the command line's syntax, on one line: allowed values, of which there may be many, come last.
 pub(crate) fn of_syntax(error: &clap::Error) -> String {
     let text = error.to_string();
-    let has_tip = text.contains("\n  tip: a similar value");
-    let lines: Vec<&str> = text
+    let mut lines: Vec<&str> = text
         .lines()
         .map(str::trim)
         .take_while(|line| !line.starts_with("Usage") && !line.starts_with("For more information"))
-        .filter(|line| !(line.is_empty() || has_tip && line.starts_with("[possible values")))
+        .filter(|line| !line.is_empty())
         .collect();
+    lines.sort_by_key(|line| line.starts_with("[possible values"));
     lines.join(" ").trim_start_matches("error: ").to_owned()
 }
 

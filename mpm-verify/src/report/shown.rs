@@ -1,6 +1,7 @@
 //! The pictures that README and docs show, each with what it is drawn from.
 
 use super::prelude::*;
+use super::rows::RESULTS;
 use super::speed::Speed;
 use super::{board, convergence, draw_own, rows, solvers, sweep, together};
 use crate::files::read;
@@ -19,7 +20,7 @@ const PLACE: &str = "docs/pictures";
 /// Errors that the pages' tables tell of: five rows of panels would be too many.
 const IN_TABLES: [&str; 3] = ["displacement_linf", "velocity_l2", "stress_l2"];
 
-/// Folder, which is a case's or the board's, and file, both of the report and of the pages; charts are SVG. The third cell
+/// Folder, which is a case's or the board's, and file, both of the report and of the pages; charts are SVG or, if too large, PNG. The third cell
 /// is [`ROWS`], [`CODES`], a script or the least tier of the runs.
 const SHOWN: &str = include_str!("../../assets/pictures.csv");
 /// Kept rows of nights: a row per run.
@@ -44,10 +45,11 @@ pub fn files() -> impl Iterator<Item = PathBuf> {
 pub fn draw(root: &Path, folders: &[PathBuf]) -> Result<String, Error> {
     let drawn = tempfile::tempdir().map_err(|e| Error::Input(format!("temporary folder: {e}")))?;
     let drawn = drawn.path();
-    draw_rows(&root.join("reports/nightly/results.csv"), drawn)?;
+    draw_rows(&root.join(RESULTS), drawn)?;
     let codes = root.join("mpm-verify/codes");
     if codes.exists() {
-        board::write(&board::gather(&[codes])?, &drawn.join("board"))?;
+        let kept: Vec<Record> = rows::read(&root.join(RESULTS))?.iter().filter_map(rows::Row::record).collect();
+        board::write(&board::among(&[codes], &kept)?, &drawn.join("board"))?;
     }
     let tier = match folders {
         [] => None,

@@ -208,7 +208,7 @@ slope-stability,gimp-none-flip,h0.2,,0.2,ok,0,0,0,0,1,1,1,1.5,2026-01-02,abc,sta
 slope-stability,gimp-none-flip,h0.1,,0.1,failed at 1.5 s,0,0,0,0,1,1,1,1.5,2026-01-01,def,
 ";
 
-    /// A repository whose README shows `shown` and docs every other table.
+    /// A repository whose README shows `shown`.
     fn repository(shown: &str) -> tempfile::TempDir {
         let root = tempfile::tempdir().unwrap();
         let write = |file: &str, text: &str| {

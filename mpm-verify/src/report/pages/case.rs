@@ -51,15 +51,16 @@ pub(super) fn page(case: &Case, study: &CaseStudy, seeded: &BTreeMap<String, See
         page.picture(picture);
     }
     page.section("more", "More");
-    page.folded("tables", "Tables", |page| {
-        for table in &case.tables {
-            let sheet = table.fill(&study.records).dense();
-            if !sheet.rows.is_empty() {
-                page.heading(3, "", Text::code(&*table.name));
-                page.table(&*table.name, sheet);
+    let tables = case.tables.iter().map(|table| (&*table.name, table.fill(&study.records).dense()));
+    let tables: Vec<(&str, Sheet)> = tables.filter(|(_, sheet)| !sheet.rows.is_empty()).collect();
+    if !tables.is_empty() {
+        page.folded("tables", "Tables", |page| {
+            for (name, sheet) in tables {
+                page.heading(3, "", Text::code(name));
+                page.table(name, sheet);
             }
-        }
-    });
+        });
+    }
     let runs = study.records.len();
     page.folded("runs", format!("Runs ({runs}), and what decides their verdicts"), |page| {
         let file = format!("{}/verdicts.csv", case.name);
