@@ -89,7 +89,7 @@ fn checks() -> Vec<Check> {
         Gate::truth("no-creep", "GIMP and quadratic splines, all but fbar-recursive, from 10⁵ steps on: the mean J of no cell drifts by more than 10⁻⁵ per 10⁵ steps")
             .when(move |r| is_sound(r) && r.record.work.steps >= ENOUGH)
             .at_most(TRUE_J_DRIFT_PER_1E5_STEPS, |_| DRIFT)
-            .because("the state of rest is one of the equations; a hundredth of the compression at the foot"),
+            .because("the state of rest is one of the equations; a tenth of the compression at the foot"),
         Gate::known_limit("out-of-balance", "cubic splines, and all on the wall's line: distance of a particle from rest above the bound of stays")
             .when(|r| r.basis() == Bspline3 || r.basis() == Bspline2 && r.values.is(WALL, WALL_LINE))
             .above(DISPLACEMENT_LINF, interpolation)

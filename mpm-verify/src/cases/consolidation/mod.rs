@@ -47,7 +47,7 @@ metrics! { ALL:
 pub(super) fn case() -> Case {
     Case::of::<1, Setup<Consolidation>>("consolidation", "Consolidation of a column at finite strain", ALL)
         .planned(plan())
-        .described("A column full of water settles by a fifth or by two fifths of its height as it drains at its top: the surface leaves \
+        .described("A column full of water settles by a fifth or by a third of its height as it drains at its top: the surface leaves \
             the grid's lines, particles cross cells, pores close and let less water through.")
         .reference("references/consolidation.py: Chebyshev collocation, and finite volumes that agree with it to 10⁻⁸.")
         .reference("The same of backward Euler's steps: the error of space by itself.")

@@ -3,12 +3,11 @@
 use super::{docs, file_of, in_repository, pictures, run};
 use crate::report::document::{Cell, Document, Row, Shown, Table, Text, prose};
 use crate::report::fate::Fate;
-use crate::report::map;
 use crate::report::prelude::*;
 use crate::report::speed::Speed;
 use crate::report::summary::programs;
 use crate::report::verdicts::{self, tightest};
-use crate::report::words::{OUTCOMES, made_by};
+use crate::report::{map, words::OUTCOMES, words::made_by};
 
 /// The sections and the other files of a report.
 pub(super) fn links() -> Vec<Text> {
@@ -60,6 +59,7 @@ fn origin(summary: &Summary) -> Text {
     });
     let machines = distinct(machines).join("; ");
     match &distinct(summary.cases.iter().map(made_by))[..] {
+        [[program, night, _]] if night == "–" => format!("{program}; {machines}.").into(),
         [[program, night, commit]] => format!("{program}; night {night}, commit {commit}; {machines}.").into(),
         _ => Text::link("Several programs", "#programs").then(format!("; {machines}.")),
     }
