@@ -311,9 +311,15 @@ fn every_case_runs_with_nothing_but_its_name() {
 
 #[test]
 fn help_and_version_go_to_stdout() {
-    for argument in ["--help", "--version"] {
-        let output = mpm_verify(&[argument]);
-        assert_eq!(code(&output), 0);
-        assert!(!output.stdout.is_empty() && output.stderr.is_empty());
+    for output in ["--help", "--version"].map(|argument| mpm_verify(&[argument])) {
+        assert!(code(&output) == 0 && !output.stdout.is_empty() && output.stderr.is_empty());
     }
+}
+
+#[test]
+fn help_lists_every_command_on_a_line_of_its_own() {
+    let [help, script] = [&["--help"][..], &["completions", "fish"]].map(|words| stdout(&mpm_verify(words)));
+    let commands = script.lines().filter_map(|l| l.split("needs_command\" -f -a \"").nth(1)?.split('"').next());
+    let lost: Vec<&str> = commands.clone().filter(|name| !help.contains(&format!("\n  {name} "))).collect();
+    assert!(commands.count() > 15 && lost == ["help"] && help.lines().all(|l| l.len() <= 100), "{lost:?}");
 }

@@ -250,20 +250,3 @@ pub(crate) fn say_json(value: &impl serde::Serialize) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(value).map_err(|e| Error::Input(e.to_string()))?;
     say(text + "\n")
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn help_lists_every_command_once_on_a_line_of_its_own() {
-        let all = Command::augment_subcommands(clap::Command::new(""));
-        let mut names: Vec<&str> = all.get_subcommands().map(clap::Command::get_name).collect();
-        let mut grouped: Vec<&str> = COMMANDS.iter().flat_map(|(_, names)| names.split(' ')).collect();
-        names.sort_unstable();
-        grouped.sort_unstable();
-        assert_eq!(grouped, names);
-        let long: Vec<String> = commands().lines().filter(|l| l.chars().count() > 100).map(str::to_owned).collect();
-        assert!(long.is_empty(), "{long:?}");
-    }
-}
