@@ -115,6 +115,8 @@ fn pages_are_small() {
         let bytes = std::fs::metadata(page).unwrap().len();
         assert!(bytes < 300_000, "{name}: {bytes} bytes");
     }
+    let page = std::fs::read_to_string(folder.path().join("footing.html")).unwrap();
+    assert!(page.contains("id=\"tables\"") && page.contains("<code>footing-results</code>"));
 }
 
 /// The README's recommendations are schemes, each with what standard MPM does and where it is weak.
